@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 
 #include "output/film/yuv.hpp"
 #include "output/image/raster.hpp"
@@ -10,24 +9,22 @@
 namespace beamcam::output {
 namespace {
 
-// Bytes of each pixel in the order named, colour not premultiplied.
-void copy_pixels(const std::uint32_t* from, int count, PixelLayout layout, std::uint8_t* out) {
+// Bytes of each pixel in the order blue, green, red, alpha; colour not premultiplied.
+void copy_pixels(const std::uint32_t* from, int count, std::uint8_t* out) {
     for (int x = 0; x < count; ++x) {
-        StraightColor c = straight_color(from[x]);
-        if (layout == PixelLayout::bgra) std::swap(c.r, c.b);
-        *out++ = static_cast<std::uint8_t>(c.r);
-        *out++ = static_cast<std::uint8_t>(c.g);
+        const StraightColor c = straight_color(from[x]);
         *out++ = static_cast<std::uint8_t>(c.b);
-        if (layout != PixelLayout::rgb) *out++ = static_cast<std::uint8_t>(c.a);
+        *out++ = static_cast<std::uint8_t>(c.g);
+        *out++ = static_cast<std::uint8_t>(c.r);
+        *out++ = static_cast<std::uint8_t>(c.a);
     }
 }
-void copy_pixels(const render::Image& image, PixelLayout layout, std::uint8_t* to, std::ptrdiff_t stride,
-                 const render::DirtyTiles& part) {
-    const std::ptrdiff_t size = layout == PixelLayout::rgb ? 3 : 4;
+void copy_pixels(const render::Image& image, std::uint8_t* to, std::ptrdiff_t stride, const render::DirtyTiles& part) {
+    constexpr std::ptrdiff_t kPixel = 4;  // [bytes]
     part.for_each_run([&](int left, int top, int right, int bottom) {
         for (int y = top; y < bottom; ++y)
-            copy_pixels(image.pixels.data() + std::ptrdiff_t(y) * image.width + left, right - left, layout,
-                        to + y * stride + left * size);
+            copy_pixels(image.pixels.data() + std::ptrdiff_t(y) * image.width + left, right - left,
+                        to + y * stride + left * kPixel);
     });
 }
 
@@ -45,9 +42,7 @@ void convert(const render::Image& image, PixelLayout layout, const PaletteTable*
         case PixelLayout::indices:
             return table->convert(image, frame.plane[0], frame.stride[0], part);
         case PixelLayout::bgra:
-        case PixelLayout::rgba:
-        case PixelLayout::rgb:
-            return copy_pixels(image, layout, frame.plane[0], frame.stride[0], part);
+            return copy_pixels(image, frame.plane[0], frame.stride[0], part);
     }
 }
 

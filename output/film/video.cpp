@@ -75,10 +75,7 @@ struct VideoWriter::Impl {
     ~Impl() { stop(true); }
 
     void open() {
-        if (options.variable_rate) {
-            longest_hold = std::lround(kLongestHold * options.fps.value());
-            options.metadata["beamcam-rate-mode"] = "variable";  // `concat` checks it
-        }
+        if (options.variable_rate) longest_hold = std::lround(kLongestHold * options.fps.value());
         if (!options.palette.empty()) table.emplace(options.palette);
         OpenedEncoder opened = open_encoder(options, file);
         layout = opened.layout;
@@ -265,14 +262,6 @@ void VideoWriter::finish() {
 VideoStatistics VideoWriter::statistics() const {
     const std::lock_guard lock(impl_->mutex);
     return impl_->cost;
-}
-
-long concatenate(const std::vector<std::filesystem::path>& segments, const Target& file) {
-    AtomicFile target(file);
-    const std::int64_t frames = video_library().concatenate(segments, target.temporary_path(), file.path,
-                                                            container_of(file.path.extension().string()));
-    target.commit();
-    return static_cast<long>(frames);
 }
 
 }  // namespace beamcam::output

@@ -20,9 +20,6 @@
 
 namespace beamcam::output {
 
-// Makes encoders print only errors, unless the environment sets it. To be called before any thread starts.
-void silence_encoder_logs();
-
 struct VideoOptions : FilmSettings, Encoding {
     bool transparent = false;            // with the alpha of the pictures
     std::vector<std::uint32_t> palette;  // of a GIF: 1 to 256 colours from PaletteMaker
@@ -82,9 +79,5 @@ class VideoInput {
     std::vector<Slot*> slots_;  // the film's
     Slot* filled_ = nullptr;
 };
-
-// Joins segments to one film without encoding them again, with the metadata of the first. Returns the number of
-// pictures. Throws Mismatch (video_library.hpp), MissingCodec, IoError.
-long concatenate(const std::vector<std::filesystem::path>& segments, const Target& file);
 
 }  // namespace beamcam::output

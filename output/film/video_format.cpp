@@ -17,27 +17,23 @@ struct CodecRow {
     int usual, worst;  // of crf; worst 0: none
 };
 constexpr std::array kEntries{CodecRow{Codec::h264, "h264", "H.264", false, true, 18, 51},
-                              CodecRow{Codec::hevc, "hevc", "HEVC", true, true, 20, 51},
                               CodecRow{Codec::vp9, "vp9", "VP9", true, true, 24, 63},
-                              CodecRow{Codec::av1, "av1", "AV1", false, true, 26, 63},
                               CodecRow{Codec::prores, "prores", "ProRes 4444", true, false, 0, 0},
                               CodecRow{Codec::ffv1, "ffv1", "FFV1", true, false, 0, 0},
                               CodecRow{Codec::gif, "gif", "GIF", false, false, 0, 0},
-                              CodecRow{Codec::apng, "apng", "APNG", true, false, 0, 0},
                               CodecRow{Codec::webp, "webp", "WebP", true, false, 0, 0}};
 
 const CodecRow& row_of(Codec codec) { return *std::ranges::find(kEntries, codec, &CodecRow::codec); }
 
 struct Container {
     std::string_view ending;
-    std::array<std::optional<Codec>, 4> codecs;  // the usual one first
+    std::array<std::optional<Codec>, 3> codecs;  // the usual one first
 };
-constexpr std::array kContainers{Container{".mp4", {Codec::h264, Codec::av1, Codec::hevc}},
-                                 Container{".webm", {Codec::vp9, Codec::av1}},
-                                 Container{".mov", {Codec::prores, Codec::h264, Codec::hevc}},
-                                 Container{".mkv", {Codec::ffv1, Codec::h264, Codec::vp9, Codec::av1}},
+constexpr std::array kContainers{Container{".mp4", {Codec::h264}},
+                                 Container{".webm", {Codec::vp9}},
+                                 Container{".mov", {Codec::prores, Codec::h264}},
+                                 Container{".mkv", {Codec::ffv1, Codec::h264, Codec::vp9}},
                                  Container{".gif", {Codec::gif}},
-                                 Container{".apng", {Codec::apng}},
                                  Container{".webp", {Codec::webp}}};
 
 const Container* container(std::string_view ending) {
@@ -46,7 +42,6 @@ const Container* container(std::string_view ending) {
 }
 
 constexpr int kSmallestVideoSide = 16, kLargestVideoSide = 16384;      // x264's
-constexpr int kSmallestAv1Side = 64;                                   // SVT-AV1's
 constexpr int kLargestWebpSide = 16383;                                // its fields have 14 bits
 constexpr std::int64_t kLargestPicture = (std::int64_t{1} << 31) - 1;  // av_image_check_size
 constexpr double kSlowest = 0.1, kFastest = 1000, kFastestGif = 50;    // [Hz]
@@ -101,7 +96,7 @@ std::string format_problem(std::string_view ending, Codec codec, bool transparen
         return std::string(title(codec)) +
                (codec == Codec::gif ? " has no half-transparent pixels, and every edge needs them"
                                     : " cannot be transparent") +
-               "; name a .webm (vp9), .mov (prores), .mkv (ffv1), .apng or .webp file, or write frames (NAME-####.png)";
+               "; name a .webm (vp9), .mov (prores), .mkv (ffv1) or .webp file, or write frames (NAME-####.png)";
     return {};
 }
 
@@ -110,9 +105,6 @@ std::string size_problem(Codec codec, int width, int height) {
     if (std::min(width, height) < kSmallestVideoSide || std::max(width, height) > kLargestVideoSide)
         return "a film of " + size + " pixels is not possible; both sides must be " +
                std::to_string(kSmallestVideoSide) + " to " + std::to_string(kLargestVideoSide);
-    if (codec == Codec::av1 && std::min(width, height) < kSmallestAv1Side)
-        return "an AV1 film of " + size + " pixels is not possible; both sides must be at least " +
-               std::to_string(kSmallestAv1Side) + ", or choose another codec";
     if (codec == Codec::webp && std::max(width, height) > kLargestWebpSide)
         return "an animated WebP of " + size + " pixels is not possible; both sides must be at most " +
                std::to_string(kLargestWebpSide) + ", or choose another codec";
@@ -124,7 +116,7 @@ std::string size_problem(Codec codec, int width, int height) {
         return "a film of " + size + " pixels is not possible, because " + title(codec) +
                " (yuv420p) stores colour for pairs of rows and columns; use " + std::to_string(width + width % 2) +
                "x" + std::to_string(height + height % 2) +
-               ", or a .mov (prores), .mkv (ffv1), .gif, .apng or .webp file";
+               ", or a .mov (prores), .mkv (ffv1), .gif or .webp file";
     return {};
 }
 
@@ -133,7 +125,7 @@ std::string rate_problem(Codec codec, double fps) {
         return plain(fps) + " frames per second is not possible; use 0.1 to 1000";
     if (codec == Codec::gif && fps > kFastestGif)
         return "a GIF counts in hundredths of a second, and players slow down one of more than 50 frames per second; "
-               "use 50, 25 or 20, or a .webp or .apng file for " +
+               "use 50, 25 or 20, or a .webp file for " +
                plain(fps);
     return {};
 }

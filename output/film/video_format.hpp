@@ -1,13 +1,11 @@
 // Formats of films: the codecs of each kind of file, their settings and limits.
 //
-//   .mp4   h264, av1, hevc  talks, the web; no transparency but hevc's, even sides
-//   .webm  vp9, av1         the web; vp9 also with transparency; even sides
-//   .mov   prores, h264, hevc   editing; prores (4444) keeps full colour and transparency; hevc for Apple's players,
-//                               transparent where libx265 was built with alpha
-//   .mkv   ffv1, h264, vp9, av1   ffv1: every bit of every pixel, for archives
-//   .gif   gif              256 colours, at most 50 frames a second
-//   .apng  apng             every pixel, with transparency; large
-//   .webp  webp             animated, with transparency; small
+//   .mp4   h264              talks, the web; no transparency, even sides
+//   .webm  vp9               the web; also with transparency; even sides
+//   .mov   prores, h264      editing; prores (4444) keeps full colour and transparency
+//   .mkv   ffv1, h264, vp9   ffv1: every bit of every pixel, for archives
+//   .gif   gif               256 colours, at most 50 frames a second
+//   .webp  webp              animated, with transparency; small
 #pragma once
 
 #include <optional>
@@ -16,7 +14,7 @@
 
 namespace beamcam::output {
 
-enum class Codec { h264, hevc, vp9, av1, prores, ffv1, gif, apng, webp };
+enum class Codec { h264, vp9, prores, ffv1, gif, webp };
 const char* name(Codec codec);   // "h264"
 const char* title(Codec codec);  // "H.264"
 std::optional<Codec> codec_named(std::string_view name);

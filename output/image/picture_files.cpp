@@ -91,7 +91,7 @@ std::vector<fs::path> picture_files(const fs::path& path) {
     if (!fs::is_regular_file(status)) throw IoError("cannot read " + path.string() + ": it is a device or a pipe");
     if (access(path.c_str(), R_OK) != 0) throw read_error(path, errno);
     if (fs::is_empty(path, error)) throw IoError("cannot read " + path.string() + ": the file is empty");
-    if (png_kind(path) == PngKind::none)
+    if (!is_png(path))
         throw IoError("cannot read " + path.string() +
                       ": it is not a PNG file; ffmpeg -i FILM name-%04d.png gives the "
                       "pictures of a film");

@@ -80,13 +80,11 @@ class PngDecoder {
 
 }  // namespace
 
-PngKind png_kind(const fs::path& file) {
+bool is_png(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
-    std::array<char, 25> head{};
+    std::array<char, kSignature.size()> head{};
     in.read(head.data(), head.size());
-    const std::string_view got(head.data(), static_cast<std::size_t>(in.gcount()));
-    if (!got.starts_with(kSignature)) return PngKind::none;
-    return got.size() == head.size() && got.back() == 16 ? PngKind::of_16_bits : PngKind::up_to_8_bits;
+    return std::string_view(head.data(), static_cast<std::size_t>(in.gcount())) == kSignature;
 }
 
 Raster read_png(const fs::path& file) { return PngDecoder(file).pixels(); }

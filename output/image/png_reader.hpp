@@ -11,10 +11,7 @@
 
 namespace beamcam::output {
 
-// By the first bytes. FFmpeg reads pictures of 16 bits per channel (video_reader.hpp), because digests use its
-// rounding.
-enum class PngKind { none, up_to_8_bits, of_16_bits };
-PngKind png_kind(const std::filesystem::path& file);
+bool is_png(const std::filesystem::path& file);  // by its first bytes
 
 // The pixels as 8-bit RGBA, as FFmpeg's `-pix_fmt rgba` gives them; colour profiles and gamma are left alone.
 // Throws IoError if the file is unreadable, damaged, cut off, or larger than kLargestSide.

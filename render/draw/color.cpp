@@ -99,25 +99,6 @@ Palette on_paper(Palette p, Color paper) {
     return p;
 }
 
-Palette recolored(Palette p, const OwnColors& own) {
-    const auto on_paper = [&](Color c, double share) { return mix(p.paper, c, share); };
-    if (own.ink) {
-        p.ink = rgb(*own.ink);
-        p.muted = on_paper(p.ink, 0.7), p.faint = on_paper(p.ink, 0.32), p.grid = on_paper(p.ink, 0.12);
-    }
-    if (own.motion) {
-        p.motion = rgb(*own.motion), p.motion_faint = on_paper(p.motion, 0.25);
-        p.moment[0] = p.motion, p.moment[1] = mix(p.moment[2], p.motion, 0.55);
-    }
-    if (own.contact) {
-        p.contact = rgb(*own.contact), p.contact_faint = on_paper(p.contact, 0.25);
-        p.moment[4] = p.contact, p.moment[3] = mix(p.moment[2], p.contact, 0.55);
-        p.force = {on_paper(p.contact, 0.4), p.contact, mix(p.contact, p.ink, 0.35)};
-    }
-    if (own.steel) p.steel = rgb(*own.steel), p.steel_edge = mix(p.steel, p.ink, 0.85);
-    return p;
-}
-
 double contrast(const Color& a, const Color& b) {
     const double x = luminance(a), y = luminance(b);
     return (std::max(x, y) + 0.05) / (std::min(x, y) + 0.05);
@@ -144,9 +125,6 @@ Color series_color(const Palette& p, std::size_t i) {
 
 Color moment_color(const Palette& p, double share) { return along(p.moment, 0.5 + 0.5 * share); }
 Color force_color(const Palette& p, double share) { return along(p.force, share); }
-Color age_color(const Palette& p, double age, double half_life) {
-    return mix(p.steel, p.contact, std::pow(0.5, age / half_life));
-}
 
 Palette Palette::without_paper() const {
     Palette out = *this;

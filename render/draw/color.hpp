@@ -60,12 +60,6 @@ struct Palette {
 };
 const Palette& palette(Theme theme);
 
-// Colours that replace those of a theme, 0xrrggbb; pale colours and scales are derived from them.
-struct OwnColors {
-    std::optional<std::uint32_t> ink = {}, motion = {}, contact = {}, steel = {};
-    bool operator==(const OwnColors&) const = default;
-};
-Palette recolored(Palette palette, const OwnColors& own);
 // The palette on paper of another colour: pale colours are diluted on it, and text stays readable.
 Palette on_paper(Palette palette, Color paper);
 
@@ -77,7 +71,5 @@ double contrast(const Color& a, const Color& b);  // 1…21, WCAG 2.1
 Color readable(const Palette& palette, Color color, double least = 3);
 Color moment_color(const Palette& palette, double share);  // −1…1; beyond: the end colour
 Color force_color(const Palette& palette, double share);   // 0…1
-// Colour of a trace that fades to the metal's colour; age >= 0 and half-life > 0 in the same unit.
-Color age_color(const Palette& palette, double age, double half_life);
 
 }  // namespace beamcam::render

@@ -9,16 +9,9 @@
 
 namespace beamcam::render {
 
-static constexpr double kOldest = 4;  // end of the scale of ages, in half-lives
-
 std::array<std::string, 3> trace_marks(const FilmContext& context) {
-    if (context.setup->view.trace == TraceColor::force) {
-        const Prefix prefix = prefix_for(context.largest_force);
-        return {"0", quantity(context.force_scale / 4, prefix, "N"), quantity(context.force_scale, prefix, "N")};
-    }
-    const double oldest = kOldest * trace_half_life(context.span);
-    const auto time = [&](double t) { return quantity(t, {"", context.time.unit}, context.time.symbol, 2); };
-    return {"0", time(oldest / 2), time(oldest)};
+    const Prefix prefix = prefix_for(context.largest_force);
+    return {"0", quantity(context.force_scale / 4, prefix, "N"), quantity(context.force_scale, prefix, "N")};
 }
 
 void draw_color_bars(Canvas& canvas, const FilmContext& context) {
@@ -29,9 +22,7 @@ void draw_color_bars(Canvas& canvas, const FilmContext& context) {
     const TextStyle small{
         .size = 16 * u + 0.4 * (context.tick - 17 * u), .color = palette.muted, .align = HAlign::centre};
     const std::string moment_title = context.translate("bending moment"),
-                      trace_title = context.translate(context.setup->view.trace == TraceColor::force
-                                                          ? "contact force, trace (√ scale)"
-                                                          : "age of the trace");
+                      trace_title = context.translate("contact force, trace (√ scale)");
     const double wide = std::round(std::max({250 * u, canvas.measure(moment_title, small).w,
                                              context.force_scale > 0 ? canvas.measure(trace_title, small).w : 0}));
     const auto bar = [&](double right, const std::string& title, const auto& color, std::array<std::string, 3> marks) {
@@ -50,12 +41,7 @@ void draw_color_bars(Canvas& canvas, const FilmContext& context) {
     };
     double right = b.right();
     if (context.force_scale > 0) {
-        const double half_life = trace_half_life(context.span), oldest = kOldest * half_life;
-        const auto color = [&](double s) {
-            return context.setup->view.trace == TraceColor::force ? force_color(palette, s)
-                                                                  : age_color(palette, s * oldest, half_life);
-        };
-        bar(right, trace_title, color, trace_marks(context));
+        bar(right, trace_title, [&](double s) { return force_color(palette, s); }, trace_marks(context));
         right -= wide + 50 * u;
     }
     if (context.moment_scale > 0) {

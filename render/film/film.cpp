@@ -21,30 +21,25 @@ namespace beamcam::render {
 
 struct Film::Prepared {
     FilmContext context;
-    std::vector<std::unique_ptr<FilmPanel>> panels;  // in the drawn layer
-    const MechanismPanel* mechanism = nullptr;       // the first mechanism panel
-    Image background;                                // everything that never changes
+    std::vector<std::unique_ptr<FilmPanel>> panels;
+    const MechanismPanel* mechanism = nullptr;  // the first mechanism panel
+    Image background;                           // everything that never changes
     std::vector<Box> background_texts;
     std::optional<ClockLine> clock;
     bool title_cut = false;
 
     explicit Prepared(std::shared_ptr<const FilmSetup> setup) : context(std::move(setup)) {
         for (const PanelSlot& slot : context.places.panels) {
-            if (!shows(slot.spec.kind == PanelKind::mechanism ? LayerOf::mechanism : LayerOf::charts)) continue;
             panels.push_back(type_of(slot.spec.kind).make(context, slot));
             if (slot.spec.kind == PanelKind::mechanism && !mechanism)
                 mechanism = static_cast<const MechanismPanel*>(panels.back().get());
         }
         draw_background();
-        if (shows(LayerOf::charts)) clock.emplace(context);
+        clock.emplace(context);
         context.fonts.reset();
         context.extent = {};  // not needed for drawing
     }
 
-    bool shows(LayerOf layer) const {
-        const LayerOf drawn = context.setup->view.layer;
-        return drawn == LayerOf::all || drawn == layer;
-    }
     void draw_moving(Canvas& canvas, int frame, Style style,
                      const std::vector<std::unique_ptr<FilmPanel::State>>& states) const;
 
@@ -83,16 +78,15 @@ void Film::Prepared::draw_background() {
     context.outline(canvas);
     canvas.record = &background_texts;
     if (!setup.view.transparent) canvas.paint(context.palette->paper);
-    if (shows(LayerOf::charts)) draw_header(canvas);
+    draw_header(canvas);
     for (const auto& panel : panels) panel->draw_background(canvas);
-    if (shows(LayerOf::charts)) draw_color_bars(canvas, context);
+    draw_color_bars(canvas, context);
 }
 
 void Film::Prepared::draw_header(Canvas& canvas) {
     const double u = context.unit;
     const FilmSetup& setup = *context.setup;
     const Layout& places = context.places;
-    if (places.logo) canvas.image_fitted(*setup.logo, *places.logo);
     if (const auto& b = places.title; b && !setup.title.empty()) {
         const FittedTitle title = fitted_title(canvas, setup.title, *b, u, context.palette->ink);
         title_cut = title.cut;
@@ -156,8 +150,7 @@ bool Film::repeats(int frame) const {
 void Film::Prepared::draw_moving(Canvas& canvas, int frame, Style style,
                                  const std::vector<std::unique_ptr<FilmPanel::State>>& states) const {
     for (std::size_t i = 0; i < panels.size(); ++i) panels[i]->draw(canvas, frame, style, states[i].get());
-    if (context.places.captions && shows(LayerOf::charts))
-        draw_caption_band(canvas, context, *context.places.captions, frame);
+    if (context.places.captions) draw_caption_band(canvas, context, *context.places.captions, frame);
     if (clock) clock->draw(canvas, frame);
 }
 

@@ -35,27 +35,14 @@ namespace beamcam::render {
 // lit: shaded, from the front; flat: a drawing; solid: bodies in perspective.
 enum class Style { lit, flat, solid };
 
-// The quantity that colours the contact trace on the disc: the largest force so far, or the time since the last touch.
-enum class TraceColor { force, age };
-
-// The part of a picture that is drawn, at its place in the whole picture, so that transparent films of the parts
-// composite to the whole. charts: everything except the mechanism's panels.
-enum class LayerOf { all, mechanism, charts };
-
 struct View {
     Style style = Style::lit;
     Theme theme = Theme::light;
     std::optional<double> exaggeration;  // factor of deflection, >= 1; absent: chosen automatically
     Shot shot = {};                      // at the start
-    double swing = 0;  // amplitude of one sine period of yaw over the film, in the solid view [rad], within ±1.2
-    TraceColor trace = TraceColor::force;
-    bool tip_path = false;                    // show the whole path of the tip up to now, not only its last second
     bool transparent = false;                 // without paper: the pictures have an alpha channel
     std::optional<std::uint32_t> paper = {};  // 0xrrggbb in place of the theme's
-    OwnColors colors = {};
     Shown show = {};
-    LayerOf layer = LayerOf::all;
-    bool strobe = false;   // show the other exposures faintly under the beam; otherwise average all of them
     Lang lang = Lang::en;  // language of the picture's own text
 };
 
@@ -74,7 +61,6 @@ struct Motion {
     std::string label;                        // plain text; shown if the film has several motions
     std::vector<sim::Pose> poses;             // of each frame, not exaggerated, times not decreasing, at least one
     std::shared_ptr<const PoseStore> stored;  // replaces `poses` if set
-    std::size_t exposures = 1;                // poses per frame: the one at its instant first
     // Poses over the time that the film shows, in any order. Scales and camera are chosen from them, so that they do
     // not depend on the instants of the frames. Absent: the frames are used.
     std::shared_ptr<const PoseStore> survey;
@@ -89,14 +75,9 @@ struct Motion {
     bool is_reliable(double t) const {
         return std::ranges::none_of(unreliable, [t](const Range& r) { return t > r.low && t <= r.high; });
     }
-    std::size_t frames() const { return (stored ? stored->size() : poses.size()) / exposures; }
-    double time(std::size_t frame) const {
-        return stored ? stored->time(frame * exposures) : poses[frame * exposures].t;
-    }
-    sim::Pose pose(std::size_t frame, std::size_t exposure = 0) const {
-        const std::size_t at = frame * exposures + exposure;
-        return stored ? stored->pose(at) : poses[at];
-    }
+    std::size_t frames() const { return stored ? stored->size() : poses.size(); }
+    double time(std::size_t frame) const { return stored ? stored->time(frame) : poses[frame].t; }
+    sim::Pose pose(std::size_t frame) const { return stored ? stored->pose(frame) : poses[frame]; }
     std::size_t surveyed() const { return survey ? survey->size() : frames(); }
     sim::Pose surveyed(std::size_t k) const { return survey ? survey->pose(k) : pose(k); }
 };
@@ -146,7 +127,6 @@ struct FilmSetup : Motion {
     int width = 1920, height = 1080;  // [px], 1…16384
     View view;
     Units units;
-    std::optional<int> speed_decimals;  // of the cam's speed; absent: three significant digits
     std::optional<LayoutNode> layout;   // absent: the standard arrangement
     std::vector<Motion> others;         // motions to compare with, poses at the same instants
     Comparison comparison = Comparison::panels;
@@ -156,8 +136,7 @@ struct FilmSetup : Motion {
     bool slow_motion = false;       // the standard layout shows collisions one by one
     std::vector<Callout> callouts;
     std::vector<FilmData> data;
-    std::string accuracy_note;          // plain text in the corner; may be empty
-    std::shared_ptr<const Image> logo;  // at the right end of the clock's line; may be null
+    std::string accuracy_note;  // plain text in the corner; may be empty
 };
 
 // The panels that the standard layout shows beside the mechanism.

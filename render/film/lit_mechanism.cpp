@@ -75,22 +75,27 @@ DirtyTiles lit_tiles(const LitScene& scene, Vec2 origin, int width, int height) 
 
 }  // namespace
 
-void LitMechanism::draw(Canvas& canvas, const MechanismShape& shape, const MechanismView& at, const Box& within) {
+LitRenderer& LitMechanism::renderer(const MechanismView& at, const Box& within) {
     if (!renderer_) {
         renderer_ = make_lit_renderer(static_cast<int>(within.w), static_cast<int>(within.h));
         ++at.context.counts->gl_contexts;
     }
+    return *renderer_;
+}
+
+void LitMechanism::draw(Canvas& canvas, const MechanismShape& shape, const MechanismView& at, const Box& within) {
+    LitRenderer& gl = renderer(at, within);
     const LitScene scene = lit_scene(shape, at.look, at.palette, {within.x, within.y});
     if (shape_ != shape) {
         const int width = static_cast<int>(within.w), height = static_cast<int>(within.h);
-        const double before = renderer_->read_back;
+        const double before = gl.read_back;
         DirtyTiles now = lit_tiles(scene, {}, width, height), changed = now;
         const bool again = std::exchange(shape_, std::nullopt).has_value();
         if (again) changed.add(tiles_);
-        renderer_->draw(scene, again ? &changed : nullptr, image_);
+        gl.draw(scene, again ? &changed : nullptr, image_);
         tiles_ = std::move(now);
         shape_ = shape;
-        at.context.counts->read_back += renderer_->read_back - before;
+        at.context.counts->read_back += gl.read_back - before;
         ++at.context.counts->mechanisms_lit;
     }
     canvas.image_tiles(image_, static_cast<int>(within.x), static_cast<int>(within.y),
@@ -98,14 +103,16 @@ void LitMechanism::draw(Canvas& canvas, const MechanismShape& shape, const Mecha
 }
 
 void LitMechanism::draw_solid(const MechanismScene& s, const std::vector<Color>& rim) {
-    const int width = static_cast<int>(s.at.box.w), height = static_cast<int>(s.at.box.h);
-    if (!renderer_) renderer_ = make_lit_renderer(width, height);
+    LitRenderer& gl = renderer(s.at, s.at.box);
     Perspective inside = *s.view;
     inside.centre = inside.centre - Vec2{s.at.box.x, s.at.box.y};
     SolidScene scene = solid_scene(s.shape, s.at.palette, s.at.box, inside, s.at.wide, s.at.look.unit, rim);
     // A near camera cuts bodies at the edges of the panel, and their shadows as well.
     scene.fade *= std::clamp(2 - s.at.zoom(), 0.0, 1.0);
-    renderer_->draw(scene, image_);
+    const double before = gl.read_back;
+    gl.draw(scene, image_);
+    s.at.context.counts->read_back += gl.read_back - before;
+    ++s.at.context.counts->mechanisms_lit;
     const int x = static_cast<int>(s.at.box.x), y = static_cast<int>(s.at.box.y);
     DirtyTiles where(s.canvas.image().width, s.canvas.image().height);
     scene.seen.for_each_run([&](double left, double top, double right, double bottom) {

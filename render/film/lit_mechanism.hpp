@@ -16,7 +16,9 @@ class LitMechanism {
     void draw_solid(const MechanismScene& s, const std::vector<Color>& rim);
 
   private:
-    std::unique_ptr<LitRenderer> renderer_;  // created on first use
+    LitRenderer& renderer(const MechanismView& at, const Box& within);  // creates it on first use
+
+    std::unique_ptr<LitRenderer> renderer_;
     Image image_;
     std::optional<MechanismShape> shape_;  // the shape in the image
     DirtyTiles tiles_;                     // its tiles

@@ -11,8 +11,6 @@ using std::numbers::pi;
 
 double solid_distance(const Box& box) { return 2.4 * std::max(box.w, box.h); }  // a mild perspective
 
-bool swings(const View& view) { return view.style == Style::solid && view.swing != 0; }
-
 }  // namespace
 
 MechanismCameras::MechanismCameras(const MechanismView& home) : home_(home) {
@@ -26,11 +24,9 @@ void MechanismCameras::follow(const std::vector<Followed>& parts) {
     shots_ = camera_frames(first, setup.moves, home_.look.camera, home_.box, parts, setup.fps);
 }
 
-bool MechanismCameras::move() const { return near() || swings(home_.context.setup->view); }
-
 bool MechanismCameras::move_at(int frame) const {
     const auto now = static_cast<std::size_t>(frame);
-    return swings(home_.context.setup->view) || (near() && !(shots_[now] == shots_[now - 1]));
+    return near() && !(shots_[now] == shots_[now - 1]);
 }
 
 MechanismView MechanismCameras::view(int frame) const {
@@ -57,7 +53,7 @@ void MechanismCameras::fit_solid_view() {
         for (const double x : {-1.5 * hub, 1.5 * hub})
             for (const double z : {-3 * half, 1.5 * half}) add(hinge + Vec2{x, foot}, z), add(hinge + Vec2{x, -hub}, z);
     };
-    for (const double way : {-1.0, 0.0, 1.0}) add_all(view.shot.yaw + way * view.swing, view.shot.pitch);
+    add_all(view.shot.yaw, view.shot.pitch);
     for (const CameraMove& move : home_.context.setup->moves) add_all(move.shot.yaw, move.shot.pitch);
     const Box all = seen.box();
     const double w = home_.box.w / 2, h = home_.box.h / 2, zoom = solid_zoom_;
@@ -78,11 +74,10 @@ Perspective MechanismCameras::looking(const MechanismView& at, double yaw, doubl
 std::optional<Perspective> MechanismCameras::perspective(const MechanismView& at, int frame) const {
     const View& view = at.context.setup->view;
     if (view.style != Style::solid) return std::nullopt;
-    const double turn = 2 * pi * frame / std::max(1, at.context.frames());
     double yaw = view.shot.yaw, pitch = view.shot.pitch;
     if (near())
         yaw = shots_[static_cast<std::size_t>(frame)].yaw, pitch = shots_[static_cast<std::size_t>(frame)].pitch;
-    return looking(at, yaw + view.swing * std::sin(turn), pitch);
+    return looking(at, yaw, pitch);
 }
 
 std::optional<Perspective> MechanismCameras::usual() const {
@@ -95,8 +90,6 @@ std::vector<Perspective> MechanismCameras::projections() const {
     const View& view = home_.context.setup->view;
     if (view.style != Style::solid) return {};
     std::vector<Perspective> out{*usual()};
-    for (const double way : {-1.0, -0.5, 0.5, 1.0})
-        if (view.swing != 0) out.push_back(looking(home_, view.shot.yaw + way * view.swing, view.shot.pitch));
     for (const CameraMove& move : home_.context.setup->moves)
         out.push_back(looking(home_, move.shot.yaw, move.shot.pitch));
     return out;

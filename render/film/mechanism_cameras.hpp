@@ -17,14 +17,13 @@ class MechanismCameras {
     void follow(const std::vector<Followed>& parts);
 
     bool near() const { return !shots_.empty(); }  // at some frame the view is not the one that shows everything
-    bool move() const;                             // during the film
     bool move_at(int frame) const;                 // since the previous frame
     MechanismView view(int frame) const;
     // Of the solid view; none in flat and lit films.
     std::optional<Perspective> perspective(const MechanismView& at, int frame) const;
     // The usual projection; none in flat and lit films.
     std::optional<Perspective> usual() const;
-    // The usual one, and those of the swing and of the keyframes; empty in flat and lit films.
+    // The usual one, and those of the keyframes; empty in flat and lit films.
     std::vector<Perspective> projections() const;
 
   private:

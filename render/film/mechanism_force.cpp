@@ -127,9 +127,9 @@ LabelPlace place_force_label(const MechanismView& at, const MechanismCameras& ca
         return placed_near(at, view, room, beside_tip(at, view, most, size), at.px(most.foot));
     };
     LabelPlace out = place(width);
-    if (!cameras.move() && farthest_arrow(at, view, out, needs) > kFarthestArrow * at.unit)
+    if (!cameras.near() && farthest_arrow(at, view, out, needs) > kFarthestArrow * at.unit)
         out = place(width + (kSample + kSampleGap) * at.unit), out.has_sample = true;
-    if (cameras.move())
+    if (cameras.near())
         keep_beside_tip(out, cameras, needs, at.context.setup->fps);
     else
         fade_where_met(out, cameras, room);

@@ -111,7 +111,7 @@ class LabelPlacer {
         for (const Box& box : arrow_boxes(way)) taken.cover(box.inset(-3 * u), 1);
         const double edge = speed_radius(at) - speed_gap(at);
         LabelPlace out = place(taken, speed_box(way, width), axis() + down(way) * edge);
-        if (cameras.move())
+        if (cameras.near())
             shift_clear(out, cameras, [&](const SeenFrame& now) -> std::optional<WantedPlace> {
                 const Vec2 base = now.at.seen(now.at.px(out.base), now.by());
                 if (!now.at.shows(base)) return std::nullopt;
@@ -145,7 +145,7 @@ class LabelPlacer {
     LabelPlace beside_arc(Vec2 way, Vec2 size, double radius, const OccupancyGrid& room) const {
         const Vec2 on_arc = way * (radius / norm(way));
         LabelPlace out{at.look.camera.to_world(at.px({0, 0}) + on_arc), way - on_arc, size, {}, {}};
-        if (cameras.move())
+        if (cameras.near())
             shift_clear(out, cameras, [&](const SeenFrame& now) { return beside_arc_at(now, out, radius); });
         else
             fade_where_met(out, cameras, room);

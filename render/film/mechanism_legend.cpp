@@ -42,8 +42,6 @@ void MechanismLegend::place(OccupancyGrid room) {
     if (!has_bar()) return;
     const double wide = std::max(scale_length(at_) * at_.look.camera.scale,
                                  canvas.measure(quantity(scale_length(at_), "m"), {.size = at_.context.tick}).w);
-    constexpr double kBesideLogo = 24;  // distance that keeps the bar from looking like a part of it [design px]
-    if (const auto& logo = at_.context.places.logo) room.cover(logo->inset(-kBesideLogo * at_.unit), 1);
     bar_ = room.choose(places_along(at_.box.inset(gap()), {wide + 2 * at_.unit, 30 * at_.unit}, Corner::bottom_right));
 }
 

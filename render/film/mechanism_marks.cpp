@@ -40,8 +40,7 @@ void draw_label(const MechanismScene& s, const LabelPlace& label, const std::str
 }
 
 std::string speed_label(const MechanismView& at) {
-    return "$ω$\u2009=\u2009" +
-           turning_speed(at.problem().cam->speed, at.context.setup->units.speed, at.context.setup->speed_decimals);
+    return "$ω$\u2009=\u2009" + turning_speed(at.problem().cam->speed, at.context.setup->units.speed);
 }
 
 double speed_radius(const MechanismView& at) {
@@ -68,17 +67,11 @@ std::vector<Vec2> angle_base(const MechanismView& at, double radius) {
     return {start - Vec2{12 * at.unit, 0}, start + Vec2{26 * at.unit, 0}};
 }
 
-std::vector<Color> rim_colors(const MechanismView& at, const Trace& trace, double now) {
-    const double half_life = trace_half_life(at.context.span);
+std::vector<Color> rim_colors(const MechanismView& at, const Trace& trace) {
     std::vector<Color> out(trace.rim().size(), Color{0, 0, 0, 0});
     for (std::size_t i = 0; i < out.size(); ++i) {
         if (!(trace.rim()[i] > 0) || !(at.context.force_scale > 0)) continue;
-        if (at.context.setup->view.trace == TraceColor::force) {
-            out[i] = force_color(at.palette, std::sqrt(std::min(1.0, double(trace.rim()[i]) / at.context.force_scale)));
-        } else {
-            const double age = std::max(0.0, now - trace.rim_times()[i]);
-            out[i] = age_color(at.palette, age, half_life);
-        }
+        out[i] = force_color(at.palette, std::sqrt(std::min(1.0, double(trace.rim()[i]) / at.context.force_scale)));
     }
     return out;
 }
@@ -240,16 +233,7 @@ void draw_disc_marks(const MechanismScene& s, const Trace& trace) {
         s.canvas.arc(d.centre, d.radius - inset, at - half, at + half);
     };
     const double width = std::min(7 * s.at.unit, 0.1 * d.radius);
-    if (s.at.context.setup->view.trace == TraceColor::force) {
-        stroke_places(s.canvas, s.at.context, trace.rim(), width, place);
-    } else {
-        const std::vector<Color> colors = rim_colors(s.at, trace, s.pose.t);
-        for (std::size_t i = 0; i < colors.size(); ++i) {
-            if (colors[i].a == 0) continue;
-            place(i);
-            s.canvas.stroke({colors[i], width, {}, Cap::butt});
-        }
-    }
+    stroke_places(s.canvas, s.at.context, trace.rim(), width, place);
     if (d.radius < 26 * s.at.marks) return;
     const Color ink = ink_on_disc(s);
     const double apart = norm(d.centre - d.axis), pen = std::max(s.at.marks, 0.45);

@@ -50,7 +50,7 @@ Vec2 arrow_tip(const MechanismView& at, const Perspective* view, const ForceArro
 void draw_force_leader(const MechanismScene& s);
 void draw_force(const MechanismScene& s);
 // A colour for each bin around the disc, alpha 0 if it was never touched.
-std::vector<Color> rim_colors(const MechanismView& at, const Trace& trace, double now);
+std::vector<Color> rim_colors(const MechanismView& at, const Trace& trace);
 
 // captions.cpp: the texts of events in boxes, with leader lines to their anchors.
 void draw_caption_leaders(const MechanismScene& s);

@@ -17,10 +17,7 @@ using std::numbers::pi;
 // ---- prepared once for a film ----------------------------------------------------------------
 
 struct MechanismPanel::ThreadState final : FilmPanel::State {
-    ThreadState(const FilmContext& context, int member, double scale, const Box& box)
-        : path(kept_path(context.setup->view.tip_path, box)),
-          path_casing(kept_path(context.setup->view.tip_path && context.setup->view.transparent, box)),
-          trace(trace_of(context, member, scale)) {}
+    ThreadState(const FilmContext& context, int member, double scale) : trace(trace_of(context, member, scale)) {}
     static Trace trace_of(const FilmContext& context, int member, double scale) {
         const sim::Problem& problem = context.motion(member).problem;
         const double rim = 2 * pi * (problem.cam ? problem.cam->radius : 1), length = problem.beam.length;
@@ -29,13 +26,9 @@ struct MechanismPanel::ThreadState final : FilmPanel::State {
         };
         return {context.samples[static_cast<std::size_t>(member)], rim, places(rim), length, places(length)};
     }
-    static AccumulatedLayer kept_path(bool needed, const Box& box) {
-        return needed ? AccumulatedLayer(static_cast<int>(box.w), static_cast<int>(box.h)) : AccumulatedLayer(1, 1);
-    }
-    AccumulatedLayer path, path_casing;
     Trace trace;
     LitMechanism lit;
-    Offscreen seen, exposed;  // view of a moving camera; one of several exposures
+    Offscreen seen;  // view of a moving camera
 };
 
 MechanismPanel::MechanismPanel(const FilmContext& context, const PanelSlot& slot)
@@ -55,7 +48,7 @@ MechanismPanel::MechanismPanel(const FilmContext& context, const PanelSlot& slot
 }
 
 std::unique_ptr<FilmPanel::State> MechanismPanel::make_state() const {
-    return std::make_unique<ThreadState>(at_.context, at_.member, at_.look.camera.scale, at_.box);
+    return std::make_unique<ThreadState>(at_.context, at_.member, at_.look.camera.scale);
 }
 
 // For the solid view this is an estimate: it is evaluated as if seen from the front.
@@ -101,24 +94,8 @@ void MechanismPanel::draw_still(Canvas& canvas, const MechanismView& at) const {
 
 // ---- moving parts ----------------------------------------------------------------------------
 
-bool MechanismPanel::accumulates_path() const {
-    return at_.context.setup->view.tip_path && at_.context.setup->view.style != Style::solid && !cameras_.near();
-}
-
-void MechanismPanel::draw_accumulated_path(Canvas& canvas, int frame, ThreadState& threads) const {
-    const double t = at_.context.at(frame);
-    const Pen pen{at_.palette.motion_faint, 1.6 * at_.unit};
-    const auto draw = [&](AccumulatedLayer& layer, const Pen& with) {
-        layer.extend_to(t, tip_path_.whole(), canvas.fonts(), with);
-        layer.draw(canvas, {at_.box.x, at_.box.y});
-    };
-    if (canvas.casing) draw(threads.path_casing, {canvas.casing->color, pen.width + canvas.casing->width});
-    draw(threads.path, pen);
-}
-
 void MechanismPanel::draw(Canvas& canvas, int frame, Style style, State* state) const {
     auto& threads = *static_cast<ThreadState*>(state);
-    if (accumulates_path()) draw_accumulated_path(canvas, frame, threads);
     if (!cameras_.near()) return draw_moving(canvas, at_, frame, style, threads);
     const MechanismView at = cameras_.view(frame);
     threads.seen.put(canvas, at.box, [&](Canvas& inside) {
@@ -137,26 +114,19 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
     const std::optional<ForceArrow> arrow = force_arrow_of(pose, drawn, rings_.peak(frame, drawn));
     const MechanismScene s{canvas, frame, pose, drawn, shape, at, view, arrow, labels};
     if (at.ghosts) draw_ghost_bodies(s);
-    const bool several = at.motion().exposures > 1, one = !several || view_strobes();
-    const auto bodies = [&] {
-        canvas.uncased([&] {
-            if (several) draw_exposures(s, style, threads);
-            if (one) draw_bodies(s, style, threads);
-        });
-    };
     if (!s.view) {
         draw_angle_arc(s);
         draw_base_line(s);
         draw_cam_speed(s);
     }
-    draw_tip_path(s);  // over the halos of letters, which would interrupt it
-    bodies();
+    tip_path_.draw_trail(s, at_);  // over the halos of letters, which would interrupt it
+    canvas.uncased([&] { draw_bodies(s, style, threads); });
     draw_force_leader(s);  // over the beam, so that it reaches its arrow
     if (s.view) {          // in the plane of the front of the beam: the mount must not hide them
         draw_angle_arc(s);
         draw_cam_speed(s);
     }
-    if (!s.view && one) canvas.uncased([&] { draw_beam_trace(s, threads.trace); });
+    if (!s.view) canvas.uncased([&] { draw_beam_trace(s, threads.trace); });
     if (at.ghosts) draw_ghost_outlines(s);
     if (at.member == 0) draw_measured_beams(s);
     rings_.draw(s);
@@ -170,47 +140,15 @@ void MechanismPanel::draw_bodies(const MechanismScene& s, Style style, ThreadSta
     if (s.view && style != Style::solid) return;  // only the labels are needed
     switch (style) {
         case Style::solid:
-            return threads.lit.draw_solid(s, rim_colors(s.at, threads.trace, s.pose.t));
+            return threads.lit.draw_solid(s, rim_colors(s.at, threads.trace));
         case Style::lit:
-            threads.lit.draw(s.canvas, s.shape, s.at, s.at.moved || s.at.motion().exposures > 1 ? s.at.box : lit_box_);
+            threads.lit.draw(s.canvas, s.shape, s.at, s.at.moved ? s.at.box : lit_box_);
             break;
         case Style::flat:
             draw_flat(s.canvas, s.shape, s.at.unit, s.at.palette);
             break;
     }
     if (s.shape.disc) draw_disc_marks(s, threads.trace);
-}
-
-// Motion blur draws the mean of all exposures; the strobe draws them one by one, older ones fainter.
-void MechanismPanel::draw_exposures(const MechanismScene& s, Style style, ThreadState& threads) const {
-    const std::size_t count = s.at.motion().exposures;
-    const auto draw_one = [&](Canvas& canvas, const Pose& pose) {
-        DrawnPose one = s.at.drawn_pose(s.at.member, pose);
-        if (view_strobes()) one.shape.disc.reset();
-        draw_bodies({canvas, s.frame, one.pose, one.beam, one.shape, s.at, s.view}, style, threads);
-    };
-    const auto pose_of = [&](std::size_t which) {
-        return s.at.motion().pose(static_cast<std::size_t>(s.frame), which);
-    };
-    if (!view_strobes())
-        return threads.exposed.put_mean(s.canvas, s.at.box, count,
-                                        [&](Canvas& canvas, std::size_t which) { draw_one(canvas, pose_of(which)); });
-    for (std::size_t k = 1; k < count; ++k) {
-        const Pose pose = pose_of(k);
-        if (pose.t >= s.pose.t) continue;  // before the first flash
-        const double age = static_cast<double>(count - k) / static_cast<double>(count);
-        threads.exposed.put(
-            s.canvas, s.at.box, [&](Canvas& canvas) { draw_one(canvas, pose); }, 0.5 - 0.38 * age);
-    }
-}
-
-// The whole path of the tip, unless its layer is drawn already, or its last part.
-void MechanismPanel::draw_tip_path(const MechanismScene& s) const {
-    if (accumulates_path()) return;
-    if (at_.context.setup->view.tip_path)
-        tip_path_.draw_whole(s, at_);
-    else
-        tip_path_.draw_trail(s, at_);
 }
 
 // The camera and fading labels change while time is frozen.

@@ -34,7 +34,6 @@ class MechanismPanel final : public FilmPanel {
     struct ThreadState;  // a FilmPanel::State
     void draw_still(Canvas& canvas, const MechanismView& at) const;
     void draw_bodies(const MechanismScene& s, Style style, ThreadState& threads) const;
-    void draw_exposures(const MechanismScene& s, Style style, ThreadState& threads) const;
     void draw_moving(Canvas& canvas, const MechanismView& at, int frame, Style style, ThreadState& threads,
                      std::vector<Box>* labels = nullptr) const;
 
@@ -43,11 +42,6 @@ class MechanismPanel final : public FilmPanel {
     LabelNeeds add_frames(SweptRegion& swept, SweptRegion& in_contact, std::vector<Followed>& followed);
     std::vector<Box> moving_under(const Callout& caption) const;
     void place_captions();
-
-    bool view_strobes() const { return at_.context.setup->view.strobe; }
-    bool accumulates_path() const;  // the tip's whole path is on a layer, as the camera does not move
-    void draw_accumulated_path(Canvas& canvas, int frame, ThreadState& threads) const;
-    void draw_tip_path(const MechanismScene& s) const;
 
     MechanismView at_;
     MechanismLegend legend_;

@@ -105,7 +105,6 @@ LabelNeeds MechanismPanel::add_frames(SweptRegion& swept, SweptRegion& in_contac
             each->add_curve(tip_path_.piece(at_, static_cast<std::size_t>(k)));  // the trail
     const Range from_rest{std::min(needs.angles.low, 0.0), std::max(needs.angles.high, 0.0)};
     needs.arc_room = arc_room(from_rest, at_.px({0, 0}), at_.box.inset(4 * at_.unit));
-    if (at_.context.setup->view.tip_path) tip_path_.find_whole(at_);
     // Shadows fade out in the gap around the panel.
     lit_box_ = lit_box(seen.box(), at_.box.inset(-std::floor(10 * at_.unit)), at_.unit);
     return needs;
@@ -120,17 +119,16 @@ std::vector<Box> MechanismPanel::moving_under(const Callout& caption) const {
         const SeenFrame now(cameras_, k);
         SweptRegion swept(now.at, std::move(room),
                           cameras_.near() && now.projection ? std::vector{*now.projection} : cameras_.projections());
-        for (int m = 0; m < (at_.ghosts ? at_.context.members() : 1); ++m)
-            for (std::size_t exposure = 0; exposure < at_.context.motion(m).exposures; ++exposure) {
-                const auto [pose, drawn, shape] =
-                    now.at.drawn_pose(m, at_.context.motion(m).pose(static_cast<std::size_t>(k), exposure));
-                swept.add_shape(shape);
-                if (m > 0 || exposure > 0) continue;
-                swept.add_motion(before, shape.face);
-                before = shape.face;
-                if (const auto arrow = force_arrow_of(pose, drawn, rings_.peak(k, drawn))) swept.add_arrow(*arrow);
-                add_measured(now.at, pose, drawn, swept);
-            }
+        for (int m = 0; m < (at_.ghosts ? at_.context.members() : 1); ++m) {
+            const auto [pose, drawn, shape] =
+                now.at.drawn_pose(m, at_.context.motion(m).pose(static_cast<std::size_t>(k)));
+            swept.add_shape(shape);
+            if (m > 0) continue;
+            swept.add_motion(before, shape.face);
+            before = shape.face;
+            if (const auto arrow = force_arrow_of(pose, drawn, rings_.peak(k, drawn))) swept.add_arrow(*arrow);
+            add_measured(now.at, pose, drawn, swept);
+        }
         if (const Pose pose = at_.context.pose(at_.member, k); shows_angle_arc(now.at, labels_.arc_radius, pose)) {
             swept.add_curve(angle_arc(now.at, labels_.arc_radius, pose));
             if (now.projection) swept.add_curve(angle_base(now.at, labels_.arc_radius));

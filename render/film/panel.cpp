@@ -90,18 +90,17 @@ FilmContext::FilmContext(std::shared_ptr<const FilmSetup> s) : setup(std::move(s
     check();
     colors = render::palette(setup->view.theme);
     if (setup->view.paper) colors = on_paper(colors, rgb(*setup->view.paper));
-    colors = recolored(colors, setup->view.colors);
     if (setup->view.transparent) colors = colors.without_paper();
     palette = &colors;
     Shown shown = setup->view.show;
     shown.title = shown.title && !setup->title.empty();
-    shown.logo = setup->logo != nullptr;
-    cjk = setup->view.lang == Lang::zh || needs_cjk(setup->title) || needs_cjk(setup->accuracy_note);
-    for (const Callout& c : setup->callouts) cjk = cjk || needs_cjk(c.text);
-    for (int m = 0; m < members(); ++m) {
-        cjk = cjk || needs_cjk(motion(m).label);
+    std::string written = setup->title + setup->accuracy_note;
+    for (const Callout& c : setup->callouts) written += c.text;
+    for (int m = 0; m < members(); ++m) written += motion(m).label;
+    for (const FilmData& each : setup->data) written += each.label;
+    cjk = setup->view.lang == Lang::zh || needs_cjk(written);
+    for (int m = 0; m < members(); ++m)
         samples.push_back(contact_samples(motion(m).trace, motion(m).problem, motion(m).impacts));
-    }
     fonts = std::make_unique<const Fonts>(cjk);
     ++counts->font_sets;
     for (int m = 0; m < members(); ++m) labels.push_back(text_markup(motion(m).label));
@@ -119,7 +118,6 @@ FilmContext::FilmContext(std::shared_ptr<const FilmSetup> s) : setup(std::move(s
     tick = places.tick;
     arrow_scale = frame_force;
     for (const PanelSlot& slot : places.panels) arrow_scale = std::max(arrow_scale, largest_held_peak(*this, slot));
-    if (setup->logo) place_logo();
     span = {times.front(), times.back()};
     if (const auto* t = column(setup->chart, {ChannelKind::t, 0}); t && !t->empty()) {
         span.low = std::min(span.low, *std::ranges::min_element(*t));
@@ -136,21 +134,6 @@ Layout FilmContext::user_places(Shown shown) const {
     shown.captions = true;
     Layout with = layout(setup->width, setup->height, *setup->layout, shown);
     return with.panels.size() == out.panels.size() && !with.first(PanelKind::mechanism) ? with : out;
-}
-
-// As high as the clock's line and at most a third as wide, in the corner; the colour scales move to the left.
-void FilmContext::place_logo() {
-    if (!places.clock) return;
-    Box& line = *places.clock;
-    double wide = line.h * setup->logo->width / setup->logo->height, high = line.h;
-    if (wide > line.w / 3) high *= line.w / 3 / wide, wide = line.w / 3;
-    double right = line.right();
-    if (places.scales && places.scales->y == line.y) {
-        right = places.scales->right();
-        places.scales->x -= wide + 40 * unit;
-    }
-    places.logo = Box{right - wide, line.y + (line.h - high) / 2, wide, high};
-    line.w -= wide + (places.scales ? 40 : 24) * unit;
 }
 
 SpeedUnit Units::speed_in_charts() const {

@@ -82,13 +82,9 @@ struct FilmContext {
     void check() const;
     void choose_scales();
     Layout user_places(Shown shown) const;
-    void place_logo();
 };
 
 using sim::kNan;
-
-// Half-life of the colour of a trace that is coloured by age [s].
-inline double trace_half_life(Range span) { return 0.3 * std::max(span.high - span.low, 1e-12); }
 
 class FilmPanel {
   public:

@@ -44,7 +44,7 @@ PictureFrame picture_frame(int width, int height, bool beside, const Shown& show
 
     const bool has_title = shown.title && w >= 320 * u && h >= 300 * u,
                has_parameters = shown.parameters && w >= 560 * u && h >= 480 * u;
-    const bool has_clock = (shown.clock || shown.legend || shown.logo) && w >= 230 * u && h >= 190 * u;
+    const bool has_clock = (shown.clock || shown.legend) && w >= 230 * u && h >= 190 * u;
     const bool is_large = w >= (f.wide ? 1150 : 660) * u && h >= 600 * u, has_scales = shown.legend && is_large;
     if (has_title) {
         out.title = Box{margin, f.top, w - 2 * margin, 54 * u};

@@ -15,8 +15,8 @@ namespace beamcam::render {
 
 class SweptRegion {
   public:
-    // `views`: those of the solid view, the usual one first; empty in flat and lit films. What the camera's swing moves
-    // is covered relative to the axis of the cam, beside which labels are placed.
+    // `views`: those of the solid view, the usual one first; empty in flat and lit films. What the camera moves is
+    // covered relative to the axis of the cam, beside which labels are placed.
     SweptRegion(const MechanismView& at, OccupancyGrid covered, const std::vector<Perspective>& views);
 
     void add_beam(const std::vector<Vec2>& face, const std::vector<Vec2>& back);  // edges of a section [px]

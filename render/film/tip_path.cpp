@@ -112,33 +112,6 @@ std::vector<Vec2> TipPath::piece(const MechanismView& home, std::size_t frame) c
     return out;
 }
 
-void TipPath::find_whole(const MechanismView& home) {
-    std::vector<Knot> tips;
-    for (std::size_t k = 0; k < knots_.points.size(); ++k)
-        tips.push_back({knots_.times[k], knots_.points[k], knots_.angles[k]});
-    const double now = home.context.at(home.context.frames() - 1);
-    for (std::size_t k = 0; home.motion().survey && k < home.motion().surveyed(); ++k) {
-        if (home.motion().survey->time(k) > now) continue;
-        tips.push_back(knot_of(home, home.motion().surveyed(k)));
-    }
-    std::ranges::stable_sort(tips, {}, &Knot::t);
-    tips.erase(std::unique(tips.begin(), tips.end(), [](const Knot& a, const Knot& b) { return a.t == b.t; }),
-               tips.end());
-    Knots all;
-    for (const Knot& tip : tips) all.add(tip);
-    std::vector<Vec2> inside;
-    std::vector<double> times;
-    for (std::size_t k = 0; k < tips.size(); ++k) {
-        std::vector<Vec2> piece{tips[k].at};
-        if (k > 0) piece = curve_between(home, all, k - 1), piece.erase(piece.begin());
-        for (Vec2 p : piece) {
-            times.push_back(tips[k].t);
-            inside.push_back(p - Vec2{home.box.x, home.box.y});
-        }
-    }
-    whole_ = thinned(times, inside, 0.5);
-}
-
 void TipPath::draw_trail(const MechanismScene& s, const MechanismView& home) const {
     struct Piece {
         std::vector<Vec2> line;
@@ -169,17 +142,6 @@ void TipPath::draw_trail(const MechanismScene& s, const MechanismView& home) con
     const double width = 2 * home.unit;
     if (s.canvas.casing) stroke(s.canvas.casing->color, 1, width + s.canvas.casing->width);
     stroke(home.palette.motion, 0.55, width);
-}
-
-void TipPath::draw_whole(const MechanismScene& s, const MechanismView& home) const {
-    const auto end = std::ranges::upper_bound(whole_.times, s.pose.t) - whole_.times.begin();
-    std::vector<Vec2> line;
-    for (std::ptrdiff_t i = 0; i < end; ++i)
-        line.push_back(seen_in(s, home, whole_.points[static_cast<std::size_t>(i)] + Vec2{home.box.x, home.box.y}));
-    const Pen pen{s.at.palette.motion_faint, 1.6 * s.at.unit};
-    if (const std::optional<Casing>& under = s.canvas.casing)
-        s.canvas.curve(line, {under->color, pen.width + under->width});
-    s.canvas.curve(line, pen);
 }
 
 }  // namespace beamcam::render

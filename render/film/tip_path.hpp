@@ -1,10 +1,9 @@
-// The path of the beam's tip: a fading trail of the last second, or the whole path.
+// The path of the beam's tip: a fading trail of the last second.
 #pragma once
 
 #include <cstddef>
 #include <vector>
 
-#include "render/draw/accumulated.hpp"
 #include "render/film/mechanism_view.hpp"
 
 namespace beamcam::render {
@@ -25,12 +24,7 @@ class TipPath {
     void complete(const MechanismView& home);
     // The curve from the tip's position at a frame to the next one, in the view `home` of the fixed camera.
     std::vector<Vec2> piece(const MechanismView& home, std::size_t frame) const;
-    // Computes the whole path from the survey of the motion and the added frames, in pixels of the panel's box.
-    void find_whole(const MechanismView& home);
-    const TimedPath& whole() const { return whole_; }
-
     void draw_trail(const MechanismScene& s, const MechanismView& home) const;
-    void draw_whole(const MechanismScene& s, const MechanismView& home) const;  // up to the scene's instant
 
   private:
     struct Knots {
@@ -46,7 +40,6 @@ class TipPath {
     Knots knots_;
     std::vector<std::size_t> frames_;  // the knot of each
     std::vector<Vec2> seam_;           // of a film that loops: the curve from its last frame to its first
-    TimedPath whole_;
 };
 
 TipPath::Knot knot_of(const MechanismView& home, const sim::Pose& pose);

@@ -76,9 +76,8 @@ ViewExtent view_extent_of(const FilmContext& context, double least_depth) {
         // Ghosts have the depth of the first beam.
         const double depth = std::max(beam_depth((ghosts ? context.motion(0) : one).problem.beam), least_depth);
         const double factor = one.problem.beam.model == sim::ModelKind::rigid ? 1 : context.factor;
-        const auto show = [&](const sim::Pose& pose, bool tip_only) {
+        const auto show = [&](const sim::Pose& pose) {
             const DrawnBeam beam = drawn_beam(one.problem, pose, factor, depth, context.section_reference(m));
-            if (tip_only) return extent.beams.add(beam.line.back());
             std::vector<Vec2>& strip = extent.strips.emplace_back();
             for (std::size_t i = 0; i < beam.line.size(); i += (i + 5 < beam.line.size() ? 4 : 1))
                 for (Vec2 p : {beam.face(i), beam.back(i)}) extent.beams.add(p), strip.push_back(p);
@@ -86,11 +85,8 @@ ViewExtent view_extent_of(const FilmContext& context, double least_depth) {
                 extent.arrows.push_back({beam.contact->on_disc, beam.contact->normal,
                                          std::min(1.0, pose.nearest->force / context.frame_force), depth});
         };
-        for (std::size_t k = 0; k < (still || one.exposures > 1 ? one.exposures : 0); ++k) show(one.pose(0, k), false);
-        for (std::size_t k = 0; k < one.surveyed(); ++k) {
-            if (still && !setup.view.tip_path) break;
-            if (const sim::Pose pose = one.surveyed(k); !still || pose.t <= context.at(0)) show(pose, still);
-        }
+        if (still) show(one.pose(0));
+        for (std::size_t k = 0; !still && k < one.surveyed(); ++k) show(one.surveyed(k));
     }
     const sim::Problem& first = context.motion(0).problem;
     for (std::size_t k = 0; k < setup.data.size(); ++k)

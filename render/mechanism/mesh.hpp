@@ -1,4 +1,4 @@
-// Bodies as triangle meshes: for the solid view (gl/solid.hpp) and the glTF model (film/model.hpp).
+// Bodies as triangle meshes for the solid view (gl/solid.hpp).
 #pragma once
 
 #include <array>

@@ -72,8 +72,7 @@ Trace::Trace(std::span<const TraceSample> samples, double circumference, std::si
       circumference_(circumference),
       length_(length),
       rim_(rim_places),
-      beam_(beam_places),
-      rim_times_(rim_places) {}
+      beam_(beam_places) {}
 
 void Trace::advance_to(double t) {
     const auto after = std::ranges::upper_bound(samples_, t, {}, &TraceSample::t);
@@ -86,9 +85,7 @@ void Trace::advance_to(double t) {
     for (; shown_ < until; ++shown_) {
         const TraceSample& sample = samples_[shown_];
         const double turns = sample.s / circumference_;
-        const std::size_t rim_place = place(turns - std::floor(turns), rim_.size());
-        float& on_rim = rim_[rim_place];
-        rim_times_[rim_place] = sample.t;
+        float& on_rim = rim_[place(turns - std::floor(turns), rim_.size())];
         float& on_beam = beam_[place(sample.x / length_, beam_.size())];
         on_rim = std::max(on_rim, static_cast<float>(sample.force));
         on_beam = std::max(on_beam, static_cast<float>(sample.force));

@@ -30,13 +30,11 @@ class Trace {
     void advance_to(double t);                              // includes samples at t; going back is possible
     const std::vector<float>& rim() const { return rim_; }  // 0: never touched
     const std::vector<float>& beam() const { return beam_; }
-    const std::vector<double>& rim_times() const { return rim_times_; }  // of the last touch in each bin [s]
 
   private:
     std::span<const TraceSample> samples_;
     double circumference_, length_;
     std::vector<float> rim_, beam_;
-    std::vector<double> rim_times_;
     std::size_t shown_ = 0;
 };
 

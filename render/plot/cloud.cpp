@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <span>
 #include <vector>
 
 namespace beamcam::render::figure {
@@ -55,30 +54,24 @@ PixelGrid pixels_of(const Box& plot) {
 }
 
 // One place for each pixel that holds points: periodic motions return to the same places.
-struct Places {
-    std::vector<Vec2> all;
-    std::size_t shown = 0;  // number of the first ones, whose points are shown
-};
-Places different_places(const Cloud& cloud, const Plot& plot) {
+std::vector<Vec2> different_places(const Cloud& cloud, const Plot& plot) {
     const PixelGrid grid = pixels_of(plot.box());
     std::vector<bool> taken(grid.size());
-    Places places;
+    std::vector<Vec2> places;
     for (std::size_t i = 0; i < cloud.x.size(); ++i) {
         const Vec2 p = plot.at(cloud.x[i], cloud.y[i]);
         const std::optional<std::size_t> cell = grid.cell(p);
         if (!cell || taken[*cell]) continue;
         taken[*cell] = true;
-        places.all.push_back(p);
-        if (i < cloud.shown) places.shown = places.all.size();
+        places.push_back(p);
     }
     return places;
 }
 
-void draw_dots(const Places& places, Color color, PageCanvas& sheet) {
-    const double crowd = std::log(static_cast<double>(places.all.size()) / kFewDots) / std::log(kMostDots / kFewDots);
+void draw_dots(const std::vector<Vec2>& places, Color color, PageCanvas& sheet) {
+    const double crowd = std::log(static_cast<double>(places.size()) / kFewDots) / std::log(kMostDots / kFewDots);
     const double side = kLargestDot * std::pow(kSmallestDot / kLargestDot, std::clamp(crowd, 0.0, 1.0));
-    for (const Vec2& p : std::span(places.all).first(places.shown))
-        sheet.rectangle({p.x - side / 2, p.y - side / 2, side, side});
+    for (const Vec2& p : places) sheet.rectangle({p.x - side / 2, p.y - side / 2, side, side});
     sheet.fill(color);
 }
 
@@ -100,17 +93,14 @@ int columns_of(const Cloud& cloud, const Plot& plot, int most) {
 void draw_density(const Cloud& cloud, const Plot& plot, PageCanvas& sheet) {
     PixelGrid grid = pixels_of(plot.box());
     grid.columns = columns_of(cloud, plot, grid.columns);
-    std::vector<std::uint32_t> counts(grid.size(), 0), shown(grid.size(), 0);
+    std::vector<std::uint32_t> counts(grid.size(), 0);
     std::uint32_t most = 1;
     for (std::size_t i = 0; i < cloud.x.size(); ++i)
-        if (const auto cell = grid.cell(plot.at(cloud.x[i], cloud.y[i]))) {
-            most = std::max(most, ++counts[*cell]);
-            if (i < cloud.shown) ++shown[*cell];
-        }
+        if (const auto cell = grid.cell(plot.at(cloud.x[i], cloud.y[i]))) most = std::max(most, ++counts[*cell]);
     Image image(grid.columns, grid.rows);
-    for (std::size_t k = 0; k < shown.size(); ++k) {
-        if (shown[k] == 0) continue;
-        const double share = most == 1 ? 1 : std::log(shown[k]) / std::log(most);
+    for (std::size_t k = 0; k < counts.size(); ++k) {
+        if (counts[k] == 0) continue;
+        const double share = most == 1 ? 1 : std::log(counts[k]) / std::log(most);
         image.pixels[k] = pixel(sheet.shown(cloud.color).faded(kFaintest + (1 - kFaintest) * share));
     }
     sheet.pixels(image, grid.plot);
@@ -119,9 +109,9 @@ void draw_density(const Cloud& cloud, const Plot& plot, PageCanvas& sheet) {
 }  // namespace
 
 void draw_cloud(const Cloud& cloud, const Plot& plot, PageCanvas& sheet) {
-    const Places places = different_places(cloud, plot);
-    if (places.shown == 0) return;
-    places.all.size() <= kMostDots ? draw_dots(places, cloud.color, sheet) : draw_density(cloud, plot, sheet);
+    const std::vector<Vec2> places = different_places(cloud, plot);
+    if (places.empty()) return;
+    places.size() <= kMostDots ? draw_dots(places, cloud.color, sheet) : draw_density(cloud, plot, sheet);
 }
 
 void cover_cloud(const Cloud& cloud, const Plot& plot, OccupancyGrid& taken) {

@@ -61,8 +61,6 @@ struct Cloud {
     std::string label = {};
     std::vector<double> x = {}, y = {};
     Color color = rgb(0x000000);
-    // The number of points that are drawn; limits of the axes and size of the dots are those of all.
-    std::size_t shown = std::numeric_limits<std::size_t>::max();
     void add(double at_x, double at_y) { x.push_back(at_x), y.push_back(at_y); }
 };
 // Coloured cells between edges, row by row from the lowest y; some may be transparent. Equal cells become an image.

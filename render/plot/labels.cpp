@@ -77,17 +77,13 @@ const char* name_of(SpeedUnit unit) {
     return unit == SpeedUnit::rpm ? "rpm" : unit == SpeedUnit::degrees ? "°/s" : "rad/s";
 }
 
-std::string turning_speed(double speed, SpeedUnit unit, std::optional<int> decimals) {
+std::string turning_speed(double speed, SpeedUnit unit) {
     const double value = std::abs(speed * factor_of(unit));
-    const auto with_unit = [&](const std::string& number) {
-        return (speed < 0 ? "−" : "") + number + (unit == SpeedUnit::degrees ? "" : "\u00A0") + name_of(unit);
-    };
-    if (decimals) return with_unit(fmt::format("{:.{}f}", value, *decimals));
     // Ordinary numbers need no prefix.
     if (factor_of(unit) == 1 && value != 0 && (value < 1e-3 || value >= 1e4)) return quantity(speed, "rad/s");
     std::string number = fmt::format("{:.3g}", value);
     if (number.find('e') != std::string::npos) number = fmt::format("{:.0f}", value);
-    return with_unit(number);
+    return (speed < 0 ? "−" : "") + number + (unit == SpeedUnit::degrees ? "" : "\u00A0") + name_of(unit);
 }
 
 std::string power_text(double value) {

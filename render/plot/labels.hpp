@@ -18,8 +18,8 @@ std::vector<std::string> parameter_pieces(const sim::Problem& problem, SpeedUnit
 // The pieces that all problems share.
 std::vector<std::string> common_pieces(const std::vector<const sim::Problem*>& problems, SpeedUnit unit);
 
-// "0.5 rad/s", "−300 rpm": without SI prefixes, with three digits, or with this number of decimals. `speed` in rad/s.
-std::string turning_speed(double speed, SpeedUnit unit, std::optional<int> decimals = {});
+// "0.5 rad/s", "−300 rpm": without SI prefixes, with three digits. `speed` in rad/s.
+std::string turning_speed(double speed, SpeedUnit unit);
 
 // Of a frame: "1/50 speed", "2× speed", "0.524× speed", "frozen"; empty at real time. `steady`: of a film at one speed;
 // otherwise changing speeds are rounded to simple fractions.

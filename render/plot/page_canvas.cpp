@@ -1,7 +1,6 @@
 #include "render/plot/page_canvas.hpp"
 
 #include <cairo-pdf.h>
-#include <cairo-ps.h>
 #include <cairo-svg.h>
 #include <cairo.h>
 #include <fmt/chrono.h>
@@ -24,18 +23,6 @@ constexpr double kLargestSide = 16384;  // [px]: a picture beyond it is a mistak
 cairo_status_t collect(void* out, const unsigned char* data, unsigned int length) {
     static_cast<std::string*>(out)->append(reinterpret_cast<const char*>(data), length);
     return CAIRO_STATUS_SUCCESS;
-}
-
-// Comments of EPS are single, short lines of ASCII.
-void describe_eps(cairo_surface_t* eps, const Document& d) {
-    const auto add = [&](const char* key, const std::string& text) {
-        constexpr std::size_t kLongestComment = 200;  // a line has 255 characters
-        std::string line;
-        for (const char c : text.substr(0, kLongestComment)) line += c >= ' ' && c <= '~' ? c : ' ';
-        if (!line.empty()) cairo_ps_surface_dsc_comment(eps, fmt::format("%%{}: {}", key, line).c_str());
-    };
-    add("Title", d.title);
-    add("For", d.creator);
 }
 
 void describe(cairo_surface_t* pdf, const Document& d) {
@@ -70,10 +57,6 @@ PageCanvas::PageCanvas(Medium medium, const Paper& paper, const Fonts& fonts, co
                        static_cast<int>(std::ceil(paper.height * scale - 1e-6)));
         unit = scale;
         begin(surface_of(image_), what);
-    } else if (medium == Medium::eps) {
-        begin(cairo_ps_surface_create_for_stream(collect, &stream_, paper.width, paper.height), what);
-        cairo_ps_surface_set_eps(cairo_get_target(cr_), 1);
-        describe_eps(cairo_get_target(cr_), document);
     } else if (medium == Medium::pdf) {
         begin(cairo_pdf_surface_create_for_stream(collect, &stream_, paper.width, paper.height), what);
         describe(cairo_get_target(cr_), document);
@@ -118,30 +101,6 @@ void PageCanvas::gradient(const Box& box, std::span<const Color> colors) {
 
 // ---- letters -------------------------------------------------------------------------------------
 
-void PageCanvas::write(const SetRun& run, Vec2 at, const TextStyle& style) {
-    if (medium_ == Medium::svg && document_.editable)
-        add_text(run, at, style);
-    else
-        Painter::write(run, at, style);
-}
-
-// An SVG element, which is written after everything else.
-void PageCanvas::add_text(const SetRun& set, Vec2 at, const TextStyle& style) {
-    cairo_user_to_device(cr_, &at.x, &at.y);
-    cairo_matrix_t matrix;
-    cairo_get_matrix(cr_, &matrix);
-    const double scale = std::hypot(matrix.xx, matrix.yx), turned = std::atan2(matrix.yx, matrix.xx);
-    const bool symbol = set.run.symbol, serif = fonts_->typefaces() == Typefaces::serif;
-    const LetterFace letters = face_of(set, style, fonts_->typefaces());
-    texts_ += fmt::format(
-        R"svg(<text transform="translate({:.3f} {:.3f}) rotate({:.3f})" font-family="{}" font-size="{:.3f}"{}{} fill="{}" xml:space="preserve">{}</text>)svg"
-        "\n",
-        at.x, at.y, turned * 180 / std::numbers::pi,
-        symbol || serif ? "Liberation Serif, Times New Roman, serif" : "Liberation Sans, Arial, sans-serif",
-        letters.size * scale, symbol ? R"( font-style="italic")" : "",
-        letters.weight == Weight::bold ? R"( font-weight="bold")" : "", hex(shown(style.color)), xml(set.run.text));
-}
-
 Box PageCanvas::measure(std::string_view markup, const TextStyle& style) const {
     const SetLabel label = set_text(*fonts_, markup, style);
     return {0, -label.ascent, label.width, label.ascent + label.descent};
@@ -176,19 +135,6 @@ Box PageCanvas::text(Vec2 at, std::string_view markup, const TextStyle& style) {
     return box;
 }
 
-namespace {
-
-// Replaces the date, for which Cairo takes the present time.
-std::string with_date(std::string eps, std::int64_t created) {
-    const std::string key = "%%CreationDate: ";
-    const std::size_t at = eps.find(key), end = eps.find('\n', at);
-    if (at == std::string::npos || end == std::string::npos) return eps;
-    return eps.replace(at + key.size(), end - at - key.size(),
-                       fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(static_cast<std::time_t>(created))));
-}
-
-}  // namespace
-
 // ---- the end -------------------------------------------------------------------------------------
 
 Image PageCanvas::image() {
@@ -200,7 +146,6 @@ std::string PageCanvas::bytes() {
     cairo_show_page(cr_);
     end();
     std::string file = std::move(stream_);
-    if (medium_ == Medium::eps) return with_date(std::move(file), document_.created);
     if (medium_ != Medium::svg) return file;
     // Cairo numbers the surfaces of a program; nothing refers to this number.
     if (const std::size_t id = file.find("<g id=\"surface"); id != std::string::npos) {
@@ -214,7 +159,6 @@ std::string PageCanvas::bytes() {
                                      "<scene>{}</scene>\n</metadata>",
                                      xml(document_.title), xml(document_.subject), xml(document_.creator),
                                      xml(document_.scene)));
-    if (const std::size_t last = file.rfind("</svg>"); last != std::string::npos) file.insert(last, texts_);
     return file;
 }
 

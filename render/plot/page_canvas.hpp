@@ -1,8 +1,8 @@
-// The canvas of a printed figure: PNG, PDF, EPS or SVG behind one set of strokes, fills and labels.
+// The canvas of a printed figure: PNG, PDF or SVG behind one set of strokes, fills and labels.
 //
 // Units are points (1/72 inch) of the printed figure, y down, whatever the medium: a line of 0.8 pt and a letter of
-// 8 pt are that on paper. PDF and EPS text is embedded TrueType, SVG is measured in millimetres and carries its glyphs
-// as outlines or, on request, as text. The same calls give the same bytes.
+// 8 pt are that on paper. PDF text is embedded TrueType, SVG is measured in millimetres and carries its glyphs as
+// outlines. The same calls give the same bytes.
 #pragma once
 
 #include <span>
@@ -22,7 +22,7 @@ namespace beamcam::render::figure {
 inline constexpr double kPointsPerInch = 72, kMillimetresPerInch = 25.4;
 inline constexpr double points(double millimetres) { return millimetres * kPointsPerInch / kMillimetresPerInch; }
 
-enum class Medium { png, pdf, svg, eps };
+enum class Medium { png, pdf, svg };
 
 // The metadata of a file. PDF has only these keys; its keywords hold the scene.
 struct Document {
@@ -30,7 +30,6 @@ struct Document {
     std::string scene;         // JSON
     std::string creator;       // "beamcam 0.1.0"
     std::int64_t created = 0;  // [s] since 1970, UTC; in the bytes, so not the present time
-    bool editable = false;     // SVG: text instead of outlines, in the fonts of the viewer
 };
 
 struct Paper {
@@ -68,15 +67,11 @@ class PageCanvas : public Painter {
     std::string bytes();
 
   private:
-    void write(const SetRun& run, Vec2 at, const TextStyle& style) override;
-    void add_text(const SetRun& run, Vec2 at, const TextStyle& style);
-
     Medium medium_;
     Paper paper_;
     Document document_;
     Image image_;
-    std::string stream_;  // of PDF, EPS and SVG
-    std::string texts_;   // of SVG, where they are no outlines
+    std::string stream_;  // of PDF and SVG
 };
 
 }  // namespace beamcam::render::figure

@@ -189,7 +189,6 @@ int command_line(int argc, const char* const* argv) {
         output::install_handlers();
         output::install_crash_handlers(kInputOutput);
         render::ignored_gl_settings();  // the environment may be changed while there is one thread
-        output::silence_encoder_logs();
         return parse_and_run(argc, argv);
     } catch (const std::exception& e) {
         return report(e);

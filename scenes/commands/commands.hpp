@@ -22,12 +22,12 @@ namespace beamcam::scenes {
 // In the order of --help.
 using AddCommand = void(Grammar& grammar);
 AddCommand add_run, add_render, add_simulate, add_sweep, add_collect, add_lyapunov, add_orbits, add_modes, add_check,
-    add_plan, add_concat, add_sheet, add_init, add_examples, add_schema, add_keys, add_diff, add_test, add_info,
-    add_doctor, add_accuracy, add_figure, add_completion, add_manual;
+    add_plan, add_init, add_examples, add_schema, add_keys, add_diff, add_test, add_info, add_doctor, add_accuracy,
+    add_figure, add_completion, add_manual;
 inline constexpr AddCommand* kCommands[] = {
-    add_run,  add_render, add_simulate, add_sweep,  add_collect,  add_lyapunov, add_orbits,     add_modes,  add_check,
-    add_plan, add_concat, add_sheet,    add_init,   add_examples, add_schema,   add_keys,       add_diff,   add_test,
-    add_info, add_doctor, add_accuracy, add_figure, add_completion, add_manual,
+    add_run,  add_render, add_simulate, add_sweep,    add_collect,  add_lyapunov, add_orbits,     add_modes,
+    add_check, add_plan,  add_init,     add_examples, add_schema,   add_keys,     add_diff,       add_test,
+    add_info, add_doctor, add_accuracy, add_figure,   add_completion, add_manual,
 };
 
 // ---- options that several commands share --------------------------------------------------------
@@ -48,8 +48,6 @@ void add_force(Command& app, Common& common);                                   
 void add_column(Command& app, std::string& column);                               // --column
 void add_lang(Command& app, Lang& lang);                                          // --lang
 void add_work(Command& app, Common& common);                                      // -v -j --progress --force -n --json
-void add_shard(Command& app, std::optional<std::string>& shard);
-Selection shard_argument(const std::string& text);  // "2/3", "auto"; throws UsageError
 
 // ---- steps that several commands share ----------------------------------------------------------
 

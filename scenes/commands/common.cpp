@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 #include "output/files/standard_output.hpp"
@@ -17,7 +16,6 @@
 #include "scenes/format/reader.hpp"
 #include "scenes/plan/plan.hpp"
 #include "scenes/scene/files.hpp"
-#include "scenes/sweep/parts.hpp"
 
 namespace beamcam::scenes {
 
@@ -101,14 +99,6 @@ LoadedScenes load_scenes(const std::vector<std::string>& paths, const Common& co
     return all;
 }
 
-void add_shard(Command& app, std::optional<std::string>& shard) {
-    app.option("--shard", &shard, "I/N",
-               "Make part I of N of every film and sequence: 2/3 writes NAME.2of3.mp4. Its pictures are those of the "
-               "whole before encoding. Part 1 makes the other outputs. auto: the part of this array task of Slurm");
-}
-
-Selection shard_argument(const std::string& text) { return {{}, shard_of(text, std::getenv)}; }
-
 Scene with_default_output(Scene scene) {
     if (scene.outputs.empty()) scene.outputs.push_back(default_film(scene));
     return scene;
@@ -117,7 +107,7 @@ Scene with_default_output(Scene scene) {
 PictureOutput film_template(const Scene& scene) {
     for (const Output& output : scene.outputs) {
         const auto* own = std::get_if<PictureOutput>(&output);
-        if (!own || own->is_document()) continue;
+        if (!own || own->kind == PictureOutput::Kind::page) continue;
         PictureOutput film = *own;
         if (own->kind != PictureOutput::Kind::video)
             film.kind = PictureOutput::Kind::video, film.file = default_film(scene).file;

@@ -12,7 +12,7 @@
 #include <system_error>
 
 #include "output/files/descriptor.hpp"
-#include "output/film/video_reader.hpp"
+#include "output/film/video_library.hpp"
 #include "output/json/tree.hpp"
 #include "render/base/versions.hpp"
 #include "render/draw/fonts.hpp"
@@ -87,7 +87,7 @@ void examine_films(std::vector<Check>& checks) {
     const std::string available = "available";
     std::istringstream lines;  // the versions, then two lines for each encoder
     examine(checks, "films", "FFmpeg",
-            "install the Debian packages libavcodec59, libavformat59, libswscale6 (or newer)", [&] {
+            "install the Debian packages libavcodec59, libavformat59 (or newer)", [&] {
                 lines.str(in_child([&] {
                     const output::VideoCapabilities found = output::video_capabilities();
                     std::string text = found.versions + "\n";

@@ -189,7 +189,7 @@ void act(const FigureArguments& given) {
     reject_options_of_others(args, *type);
     if (args.file.empty())
         throw UsageError(
-            fmt::format("figure {}: name the file with -o, ending in .pdf, .svg, .eps, .png or .tif", args.figure));
+            fmt::format("figure {}: name the file with -o, ending in .pdf, .svg or .png", args.figure));
     if (const auto refusal = refusal_of(*type, scene))
         throw SceneError(fmt::format("{}: no figure \"{}\": {}", args.scene, type->name, *refusal));
     scene.set_outputs({figure_output(args, preset, scene)});
@@ -204,7 +204,6 @@ void add_print_options(Command& app, FigureArguments& args) {
     args.print.add(app, "--height", "height", "H");
     args.print.add(app, "--lang", "lang", "LANG");
     args.print.add(app, "--dpi", "dpi", "N");
-    args.print.add(app, "--text", "text", "HOW");
     args.print.add(app, "--font", "font", "FONT");
     args.print.add(app, "--theme", "theme", "THEME");
     app.option("--data", &args.data, "FILE", "Write the plotted numbers, too: .csv");
@@ -259,7 +258,7 @@ void add_figure(Grammar& grammar) {
                    "Name of the figure or preset; not needed with --channels (\"series\") and --at (\"strobe\")");
     app.flag("--list", args.list, "List all figures and presets, and which of them this scene cannot have");
     app.option("--preset", &args.preset, "FILE", "A preset of your own: .json with the keys of a figure");
-    app.option("-o,--output", &args.file, "FILE", "File to make: .pdf, .svg, .eps, .png or .tif");
+    app.option("-o,--output", &args.file, "FILE", "File to make: .pdf, .svg or .png");
     add_print_options(app, args);
     add_content_options(app, args);
     add_series_options(app, args);

@@ -9,8 +9,7 @@
 #include "output/data/table_reader.hpp"
 #include "output/files/errors.hpp"
 #include "output/files/text_safety.hpp"
-#include "output/film/video_reader.hpp"
-#include "output/image/document_metadata.hpp"
+#include "output/film/video_library.hpp"
 #include "output/image/png_reader.hpp"
 #include "output/json/tree.hpp"
 #include "render/base/error.hpp"
@@ -54,13 +53,6 @@ void read_own_keys(const std::map<std::string, std::string>& metadata, Provenanc
         if (p.version.empty()) p.version = version_in(find(metadata, key));
 }
 
-void read_document(const output::DocumentMetadata& document, Provenance& p) {
-    p.title = document.title;
-    p.version = version_in(document.creator);
-    if (document.scene.starts_with("{")) p.scene = document.scene;
-    if (!document.subject.empty()) p.facts["subject"] = document.subject;
-}
-
 void read_png_info(const std::string& file, Provenance& p) {
     p.kind = "PNG picture";
     const output::PngInfo info = output::read_png_info(file);
@@ -76,18 +68,14 @@ void read_png_info(const std::string& file, Provenance& p) {
         p.scene = find(output::read_png_info(beside).metadata, "beamcam-scene");
 }
 
-void read_file_list(const std::string& file, Provenance& p);
-
 void read_film(const std::string& file, Provenance& p) {
-    const output::VideoReader film(file);
-    const output::VideoInfo& info = film.info();
-    p.kind = info.is_still() ? "picture" : "film";
+    const output::VideoInfo info = output::video_library().info(file);
+    p.kind = "film";
     p.facts["size"] = fmt::format("{}x{}", info.width, info.height);
     p.facts["codec"] = info.codec;
     if (info.frames > 0) p.facts["frames"] = std::to_string(info.frames);
     if (info.seconds > 0) p.facts["duration"] = fmt::format("{:.6g} s", info.seconds);
     read_own_keys(info.metadata, p);
-    if (!p.made_by_beamcam()) read_file_list(file, p);  // formats without metadata, such as GIF
 }
 
 // Tables contain only numbers; the list of files beside them describes them.
@@ -115,18 +103,12 @@ Provenance provenance_of(const std::string& file) {
     Provenance p;
     p.file = file;
     const std::string ending = lowered(ending_of(file));
-    if (output::png_kind(file) != output::PngKind::none && ending != ".apng") {
+    if (output::is_png(file)) {
         read_png_info(file, p);
-    } else if (ending == ".svg") {
-        p.kind = "SVG figure";
-        read_document(output::read_svg_metadata(file), p);
-    } else if (ending == ".pdf") {
-        p.kind = "PDF figure";
-        read_document(output::read_pdf_metadata(file), p);
     } else if (ending == ".csv" || ending == ".npz") {
         read_table(file, p);
-    } else if (const char* kind = kind_without_scene(ending); kind && ending != ".gif" && ending != ".apng") {
-        p.kind = kind;  // also an animated .webp, which FFmpeg does not read
+    } else if (const char* kind = kind_without_scene(ending)) {
+        p.kind = kind;
         read_file_list(file, p);
         if (ending == ".nc") p.facts["content"] = "not read: beamcam writes NetCDF files only";
     } else {

@@ -1,4 +1,4 @@
-// `beamcam render`: one picture, sequence, film, page or model of a scene.
+// `beamcam render`: one picture, sequence, film or page of a scene.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -21,7 +21,7 @@ struct RenderArguments {
     std::string scene, file;
     std::vector<std::string> others;
     KeyOptions film{"video"}, still{"still"};
-    std::optional<std::string> title, frames, shard;
+    std::optional<std::string> title;
 };
 
 // ---- the output that the file's name asks for ------------------------------------------------------
@@ -57,22 +57,19 @@ FigureOutput vector_still(const RenderArguments& args, const PictureOutput& film
 // With the keys that it has in common with `film`.
 Output output_for_file(const RenderArguments& args, PictureOutput film) {
     const std::string ending = ending_of(args.file);
-    require_ending(
-        "-o", args.file,
-        {".mp4", ".webm", ".mov", ".mkv", ".gif", ".apng", ".webp", ".png", ".pdf", ".svg", ".eps", ".html", ".glb"});
-    if (ending == ".pdf" || ending == ".svg" || ending == ".eps") return vector_still(args, film);
+    require_ending("-o", args.file,
+                   {".mp4", ".webm", ".mov", ".mkv", ".gif", ".webp", ".png", ".pdf", ".svg", ".html"});
+    if (ending == ".pdf" || ending == ".svg") return vector_still(args, film);
     const bool numbered = is_numbered(std::filesystem::path(args.file).filename().string());
     using enum PictureOutput::Kind;
-    const bool document = ending == ".html" || ending == ".glb";
     film.kind = args.still.value("--at") ? still
                 : ending == ".html"      ? page
-                : document               ? model
                 : ending == ".png"       ? frames
                                          : video;
     if (film.kind == still && (ending != ".png" || numbered))
-        throw UsageError(fmt::format(
-            "--at makes one picture; -o {} must be a .png, .pdf, .svg or .eps file without '#'", args.file));
-    if (document && !args.others.empty())
+        throw UsageError(
+            fmt::format("--at makes one picture; -o {} must be a .png, .pdf or .svg file without '#'", args.file));
+    if (film.kind == page && !args.others.empty())
         throw UsageError(fmt::format("-o {} plays one motion; name one scene", args.file));
     if (film.kind == frames && !numbered)
         throw UsageError(fmt::format(
@@ -84,10 +81,6 @@ Output output_for_file(const RenderArguments& args, PictureOutput film) {
 
 // The output with the values of the options.
 Output with_options(const RenderArguments& args, const Output& base, const Scene& scene) {
-    const auto* pictures = std::get_if<PictureOutput>(&base);
-    for (const auto& [option, given] : {std::pair{"--frames", &args.frames}, std::pair{"--shard", &args.shard}})
-        if (*given && !(pictures && pictures->has_frames()))
-            throw UsageError(fmt::format("{} belongs to films and sequences; -o {} is none", option, args.file));
     Node node = to_tree(base);
     remove(node, "file");
     add(node, "file", std::filesystem::path(args.file).filename().string());
@@ -136,42 +129,6 @@ void compare_scenes(const RenderArguments& args, Scene& scene, Picture& picture)
     if (!args.title) scene.title = fmt::format("{} motions compared", kCounts[motions - 2]);
 }
 
-// ---- parts of films --------------------------------------------------------------------------------
-
-// "12:40", ":40" or "12:" of the frames begin … end − 1 of the film.
-std::pair<long, long> frames_argument(const std::string& text, long begin, long end) {
-    const std::size_t colon = text.find(':');
-    const auto number = [&](std::string_view part, long otherwise) {
-        return part.empty() ? otherwise : output::number_in<long>(part).value_or(-1);
-    };
-    if (colon == std::string::npos)
-        throw UsageError(
-            fmt::format("--frames {}: write FIRST:END, for example {}:{} for all of them", text, begin, end));
-    const long from = number(std::string_view(text).substr(0, colon), begin),
-               to = number(std::string_view(text).substr(colon + 1), end);
-    if (from < begin || to > end)
-        throw UsageError(
-            fmt::format("--frames {}: the frames of the film are {} … {}; END, not included, is at most {}", text,
-                        begin, end - 1, end));
-    if (from >= to)
-        throw UsageError(fmt::format("--frames {}: END must be above FIRST, because it is not included", text));
-    return {from, to};
-}
-
-Selection part_of_film(const RenderArguments& args, const Scene& scene) {
-    Selection selection;
-    if (!args.frames && !args.shard) return selection;
-    if (args.frames && args.shard) throw UsageError("--frames and --shard exclude each other; keep one");
-    if (args.shard) return shard_argument(*args.shard);
-    const Plan planned = plan(scene);
-    const Pictures& whole = planned.pictures.at(0);
-    if (whole.draw.empty())
-        throw UsageError("--frames: the number of frames of this film depends on the impacts; use --shard");
-    selection.frames =
-        frames_argument(*args.frames, whole.first_frame, whole.first_frame + static_cast<long>(whole.draw.size()));
-    return selection;
-}
-
 // In a scene a poster outside the film is the film's nearest frame, so that films can be shortened; here it is an
 // error.
 void require_poster_inside(const PictureOutput& film, double end_time) {
@@ -193,9 +150,7 @@ void act(const RenderArguments& args) {
     if (const auto* video = picture_of(output, PictureOutput::Kind::video))
         require_poster_inside(*video, scene.end_time);
     scene.set_outputs({std::move(output)});
-    RunOptions options = run_options(args.common, "");
-    options.selection = part_of_film(args, scene);
-    run_or_plan({&scene, 1}, options, args.common);
+    run_or_plan({&scene, 1}, run_options(args.common, ""), args.common);
 }
 
 void add_key_options(Command& app, RenderArguments& args) {
@@ -223,22 +178,18 @@ void add_key_options(Command& app, RenderArguments& args) {
 
 void add_render(Grammar& grammar) {
     const auto [app, args] = grammar.command<RenderArguments>(
-        "render", "Make one film, picture sequence, still picture, page or model of a scene", act);
+        "render", "Make one film, picture sequence, still picture or page of a scene", act);
     app.examples = {"render fall.json -o fall.mp4 --size 1280x720 --to 0.4 --speed impacts",
                     "render fall.json -o touch.png --at impact:1", "render slow.json fast.json -o both.mp4 --to 0.5"};
     add_scene(app, args.scene, args.common);
     app.positional("OTHERS", &args.others, "Further scenes, compared with the first in one picture");
     app.option("-o,--output", &args.file, "FILE",
-               "File to make. The ending chooses the kind: film (.mp4 .webm .mov .mkv .gif .apng .webp), sequence of "
-               "pictures (name-####.png), still picture (.png, or .pdf .svg .eps in vector graphics, with --at), page "
-               "that plays the motion (.html), moving model (.glb)")
+               "File to make. The ending chooses the kind: film (.mp4 .webm .mov .mkv .gif .webp), sequence of pictures "
+               "(name-####.png), still picture (.png, or .pdf .svg in vector graphics, with --at), page that plays the "
+               "motion (.html)")
         .required();
     app.option("--title", &args.title, "TEXT", "Title of the picture");
     add_key_options(app, args);
-    app.option("--frames", &args.frames, "FIRST:END",
-               "Only these frames of the film, by number from 0, END not included: 30:60. Scales and camera are those "
-               "of the whole film");
-    add_shard(app, args.shard);
     add_work(app, args.common);
     app.footer = "Other properties are those of the first film, sequence or still picture of the scene.";
 }

@@ -12,6 +12,7 @@
 #include "render/base/error.hpp"
 #include "scenes/figures/figure_files.hpp"
 #include "scenes/scene/files.hpp"
+#include "scenes/scene/version.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -30,6 +31,14 @@ std::string content_of(const Result& result, const ResultFiles& files, Scene sce
     return figure_files(figure, how, to_json(scene)).front().second;
 }
 
+output::Target target_of(const std::string& file, const Scene& scene, output::FileList& file_list) {
+    const std::string ending = ending_of(file);
+    if (ending != ".pdf" && ending != ".svg") return file_list.target(file);
+    Scene shown = scene;
+    shown.outputs.clear();
+    return file_list.target(file, {.inputs = {}, .version = std::string(kVersion), .scene = to_json(shown)});
+}
+
 void write_to(const std::string& file, const Result& result, const ResultFiles& files, const Scene& scene,
               output::FileList& file_list) {
     if (is_stdout(file))
@@ -37,7 +46,7 @@ void write_to(const std::string& file, const Result& result, const ResultFiles& 
     else if (is_table(file))
         output::write_table(file_list.target(file), result.table());
     else
-        output::write_file(file_list.target(file), content_of(result, files, scene, file));
+        output::write_file(target_of(file, scene, file_list), content_of(result, files, scene, file));
 }
 
 }  // namespace

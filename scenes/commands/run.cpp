@@ -1,8 +1,6 @@
 // `beamcam run`: all outputs of scenes.
 #include "scenes/outputs/run.hpp"
 
-#include <optional>
-
 #include "scenes/commands/commands.hpp"
 
 namespace beamcam::scenes {
@@ -12,15 +10,12 @@ struct RunArguments {
     Common common;
     std::vector<std::string> scenes;
     std::string directory = ".";
-    std::optional<std::string> shard;
 };
 
 int act(const RunArguments& args) {
     const auto [scenes, code] = load_scenes(args.scenes, args.common);
     if (scenes.empty()) return code;
-    RunOptions options = run_options(args.common, args.directory);
-    if (args.shard) options.selection = shard_argument(*args.shard);
-    run_or_plan(scenes, options, args.common);
+    run_or_plan(scenes, run_options(args.common, args.directory), args.common);
     return code;
 }
 
@@ -32,7 +27,6 @@ void add_run(Grammar& grammar) {
     app.examples = {"run fall.json -o out", "run *.json -n"};
     add_scenes(app, args.scenes, args.common);
     app.option("-o,--output", &args.directory, "DIR", "Directory for the outputs (default: the current one)");
-    add_shard(app, args.shard);
     add_work(app, args.common);
     app.footer = "Scenes with the same mechanics are simulated once.";
 }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <tuple>
 
 #include "output/files/numbers.hpp"
@@ -23,7 +24,7 @@ struct SweepArguments {
     std::string scene, file;
     std::vector<std::string> over;
     std::optional<std::string> sample, transient, keep, seed;
-    std::optional<std::string> diagram, figure, value, caption, film;
+    std::optional<std::string> diagram, figure, value, caption;
     std::string column = "elsevier";
     Lang lang = Lang::en;
     std::optional<std::string> shard;
@@ -131,25 +132,11 @@ void check_value(const SweepArguments& args, std::string_view diagram, const Sce
     if (!problem.empty()) throw UsageError(fmt::format("--value {}: {}", *args.value, problem));
 }
 
-// Like the scene's own sweep film, if it has one.
-SweepFilmOutput film_of(const SweepArguments& args, const Scene& scene) {
-    if (const auto why = figure_type("bifurcation")->refusal(scene)) throw UsageError("--film: " + *why);
-    check_value(args, "bifurcation", scene);
-    SweepFilmOutput film;
-    for (const Output& output : scene.outputs)
-        if (const auto* own = std::get_if<SweepFilmOutput>(&output)) film = *own;
-    film.file = *args.film;
-    if (args.value) film.value = *args.value;
-    if (args.lang == Lang::zh) film.lang = Lang::zh;
-    return film;
-}
-
 // The files of the sweep as outputs of its scene.
 std::vector<Output> outputs_of(const SweepArguments& args, const Scene& scene) {
     std::vector<Output> outputs;
-    if (!args.file.empty() || !(args.diagram || args.film))
+    if (!args.file.empty() || !args.diagram)
         outputs.emplace_back(SweepOutput{args.file.empty() ? "-" : args.file});
-    if (args.film) outputs.emplace_back(film_of(args, scene));
     if (!args.diagram) return outputs;
     FigureOutput diagram;
     diagram.file = *args.diagram;
@@ -170,15 +157,14 @@ void check_parts(const SweepArguments& args) {
     if (!args.shard) return;
     if (args.file.empty() || is_stdout(args.file))
         throw UsageError("--shard: name the table of the whole sweep with -o; a part of r.csv is r.2of3.points");
-    if (args.diagram || args.film)
-        throw UsageError("--diagram, --film: a part has no diagram or film; collect the parts first");
+    if (args.diagram) throw UsageError("--diagram: a part has no diagram; collect the parts first");
 }
 
 void reject_unused_options(const SweepArguments& args) {
     if (args.diagram) return;
     if (args.caption) throw UsageError("--caption belongs to --diagram");
     if (args.figure) throw UsageError("--figure belongs to --diagram");
-    if (args.value && !args.film) throw UsageError("--value belongs to --diagram");
+    if (args.value) throw UsageError("--value belongs to --diagram");
 }
 
 void act(const SweepArguments& args) {
@@ -186,12 +172,11 @@ void act(const SweepArguments& args) {
     reject_unused_options(args);
     if (!args.file.empty()) require_ending_or_stdout("-o", args.file, {".csv", ".npz", ".nc"});
     if (args.diagram) require_ending("--diagram", *args.diagram, kFigureEndings);
-    if (args.film) require_ending("--film", *args.film, kSweepFilmEndings);
     if (args.caption) require_ending("--caption", *args.caption, kCaptionEndings);
     Scene scene = with_sweep_options(load_scene(args.scene, args.common), args);
     scene.set_outputs(outputs_of(args, scene));
     RunOptions options = run_options(args.common, "");
-    if (args.shard) options.selection = shard_argument(*args.shard);
+    if (args.shard) options.shard = shard_of(*args.shard, std::getenv);
     run_or_plan({&scene, 1}, options, args.common);
 }
 
@@ -220,13 +205,11 @@ void add_sweep(Grammar& grammar) {
                "Initial states: same, carry-up, carry-down, carry-up,carry-down or random:N (default: same)");
     app.option("-o,--output", &args.file, "FILE",
                "Table of samples: .csv, .npz or .nc (NetCDF-4); without any file, CSV on standard output");
-    app.option("--diagram", &args.diagram, "FILE", "Figure of the sweep: .pdf, .svg, .eps, .png or .tif");
-    app.option("--film", &args.film, "FILE",
-               "Film in which the diagram grows while the beam moves beside it: .mp4, .mov, .mkv or .webm");
+    app.option("--diagram", &args.diagram, "FILE", "Figure of the sweep: .pdf, .svg or .png");
     app.option("--figure", &args.figure, "NAME", "Kind of --diagram (default: depends on the swept keys)")
         .one_of(diagram_names());
     app.option("--value,--ordinate", &args.value, "WHAT",
-               "Quantity that --diagram and --film show. bifurcation: a column of the samples (default: v_n_before, "
+               "Quantity that --diagram shows. bifurcation: a column of the samples (default: v_n_before, "
                "theta); map, basins: class (default), exponent, impacts_per_period, or the mean of a column");
     add_column(app, args.column);
     add_lang(app, args.lang);

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -21,9 +19,6 @@ using render::rgb;
 using sim::AttractorClass;
 
 namespace {
-
-// Is called for each dot with the panel, the cloud and the point.
-using Added = std::function<void(std::size_t panel, std::size_t cloud, std::uint64_t point)>;
 
 constexpr std::uint32_t kSeedColors[] = {0x000000, 0xE0218A, 0x009E73, 0x56B4E9};
 constexpr double kOverFirst = 0.65;  // opacity of the other starts' dots, which do not hide those of the first
@@ -84,19 +79,18 @@ std::vector<figure::Cloud> clouds_of_starts(const SweptPoints& points) {
 struct Dots {
     std::vector<figure::Cloud> samples, exponents;
 };
-Dots dots_of(const SweptPoints& points, std::size_t column, const std::vector<std::uint64_t>& order,
-             const Added& added) {
+Dots dots_of(const SweptPoints& points, std::size_t column) {
     const std::size_t width = points.data.columns.size();
     Dots out{clouds_of_starts(points), clouds_of_starts(points)};
-    for (const std::uint64_t k : order) {
+    for (std::uint64_t k = 0; k < points.data.points(); ++k) {
         if (!points.data.has(k)) continue;
         const output::StoredPoint p = points.data.read(k);
         const std::size_t cloud = out.samples.size() > 1 ? k % points.seeds() : 0;
         const double at = points.value(k);
-        if (std::isfinite(p.exponent)) out.exponents[cloud].add(at, p.exponent), added(1, cloud, k);
+        if (std::isfinite(p.exponent)) out.exponents[cloud].add(at, p.exponent);
         if (!has_section(kind_of(p))) continue;
         for (std::size_t i = column; i < p.samples.size(); i += width)
-            out.samples[cloud].add(at, drawn(points, column, p.samples[i])), added(0, cloud, k);
+            out.samples[cloud].add(at, drawn(points, column, p.samples[i]));
     }
     return out;
 }
@@ -147,18 +141,11 @@ figure::Panel samples_panel(const SweptPoints& points, std::size_t column, std::
 
 std::string usual_value(const SweptPoints& points) { return points.of_impacts() ? "v_n_before" : "theta"; }
 
-// The points as they are numbered.
-std::vector<std::uint64_t> as_numbered(const SweptPoints& points) {
-    std::vector<std::uint64_t> order(points.data.points());
-    std::iota(order.begin(), order.end(), std::uint64_t{0});
-    return order;
-}
+}  // namespace
 
-// `order`: in which the clouds hold the points.
-figure::Figure diagram_of(const SweptPoints& points, const std::string& value, const std::vector<std::uint64_t>& order,
-                          const Added& added) {
-    const std::size_t column = points.column(value.empty() ? usual_value(points) : value);
-    Dots dots = dots_of(points, column, order, added);
+figure::Figure bifurcation(const SweptPoints& points, const FigureOutput& how) {
+    const std::size_t column = points.column(how.value.empty() ? usual_value(points) : how.value);
+    Dots dots = dots_of(points, column);
     const bool empty = all_empty(dots.samples), known = !all_empty(dots.exponents);
     figure::Figure out;
     figure::Panel strip = class_strip(points);
@@ -174,50 +161,6 @@ figure::Figure diagram_of(const SweptPoints& points, const std::string& value, c
                   .tight = true};
     out.stack = out.share_x = true;
     out.aspect = empty ? 0.45 : known ? 1.05 : 0.8;
-    return out;
-}
-
-}  // namespace
-
-figure::Figure bifurcation(const SweptPoints& points, const FigureOutput& how) {
-    return diagram_of(points, how.value, as_numbered(points), [](auto...) {});
-}
-
-GrowingDiagram::GrowingDiagram(const Swept& swept, const FigureOutput& how, const std::vector<std::size_t>& place) {
-    const SweptPoints points(swept, how.lang);
-    std::vector<std::uint64_t> order = as_numbered(points);
-    std::ranges::stable_sort(order, {}, [&](std::uint64_t k) { return place[k]; });
-    places_.resize(2);
-    whole_ = diagram_of(points, how.value, order, [&](std::size_t panel, std::size_t cloud, std::uint64_t point) {
-        std::vector<std::vector<std::size_t>>& of_panel = places_[panel];
-        of_panel.resize(std::max(of_panel.size(), cloud + 1));
-        of_panel[cloud].push_back(place[point]);
-    });
-    if (whole_.panels.size() < 3) places_.pop_back();  // no exponent is known
-    for (std::size_t i = 0; i < places_.size(); ++i) places_[i].resize(whole_.panels[i].clouds.size());
-    factor_ = points.factor(0);
-    Panel& samples = whole_.panels.front();
-    if (samples.legend == Legend::box) samples.legend = Legend::above;  // in the plot it would move as the plot fills
-    const std::vector<std::optional<std::size_t>> cells = strip_cells(points);
-    cells_.assign(whole_.panels.back().cells[0].colors.size(), 0);
-    for (std::size_t k = 0; k < cells.size(); ++k)
-        if (cells[k]) cells_[*cells[k]] = place[k];
-    whole_.name = "bifurcation";
-}
-
-Figure GrowingDiagram::until(std::size_t last, double at) const {
-    Figure out = whole_;
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-        for (std::size_t c = 0; c < places_[i].size(); ++c) {
-            const std::vector<std::size_t>& places = places_[i][c];
-            out.panels[i].clouds[c].shown =
-                static_cast<std::size_t>(std::ranges::upper_bound(places, last) - places.begin());
-        }
-        out.panels[i].rules.push_back({.at = factor_ * at, .vertical = true});
-    }
-    std::vector<render::Color>& colors = out.panels.back().cells[0].colors;
-    for (std::size_t i = 0; i < colors.size(); ++i)
-        if (cells_[i] > last) colors[i] = render::Color{0, 0, 0, 0};
     return out;
 }
 

@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
-#include <map>
 
 #include "output/files/numbers.hpp"
 #include "output/image/png.hpp"
-#include "output/image/tiff.hpp"
 #include "render/base/error.hpp"
 #include "render/draw/markup.hpp"
 #include "scenes/figures/caption.hpp"
@@ -54,21 +52,18 @@ auto drawn(const figure::Figure& f, const FigureOutput& how, figure::Medium medi
     const render::Fonts fonts(figure::needs_chinese(f),
                               how.serif ? render::Typefaces::serif : render::Typefaces::print);
     figure::PageCanvas sheet(
-        medium, {figure::points(page.width), figure::points(page.height), how.resolution(), how.dark}, fonts, document);
+        medium, {figure::points(page.width), figure::points(page.height), how.dpi, how.dark}, fonts, document);
     figure::draw(f, page, sheet);
     return take(sheet);
 }
 
 std::string bytes_of(const figure::Figure& f, const FigureOutput& how, const std::string& scene) {
-    figure::Document document = document_of(f, scene);
-    document.editable = how.editable;
-    static const std::map<std::string, figure::Medium> kVectors{
-        {".pdf", figure::Medium::pdf}, {".svg", figure::Medium::svg}, {".eps", figure::Medium::eps}};
-    if (const auto vector = kVectors.find(ending_of(how.file)); vector != kVectors.end())
-        return drawn(f, how, vector->second, document, [](figure::PageCanvas& sheet) { return sheet.bytes(); });
-    if (how.is_tiff())
-        return output::encode_tiff(figure_image(f, how), {how.resolution(), document.title, document.creator});
-    return output::encode_png(figure_image(f, how), {how.resolution(),
+    const figure::Document document = document_of(f, scene);
+    const std::string ending = ending_of(how.file);
+    if (ending != ".png")
+        return drawn(f, how, ending == ".pdf" ? figure::Medium::pdf : figure::Medium::svg, document,
+                     [](figure::PageCanvas& sheet) { return sheet.bytes(); });
+    return output::encode_png(figure_image(f, how), {how.dpi,
                                                      {{"Title", document.title},
                                                       {"Description", document.subject},
                                                       {"Software", document.creator},

@@ -3,11 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <memory>
 
 #include "output/files/numbers.hpp"
-#include "output/image/png_reader.hpp"
 #include "render/plot/user_text.hpp"
 #include "scenes/scene/files.hpp"
 
@@ -118,44 +115,14 @@ void adopt_unit(std::string_view text, const Dimension& dimension, render::Units
     if (same(dimension, dimension::kAngularSpeed)) units.speed = speed_unit(text);
 }
 
-void check_view(ObjectReader& r, const View& view) {
-    if (r.has("exposures") && view.poses() == 1)
-        r.warn("exposures", " has no effect without a \"shutter\" or \"strobe\"");
-}
-
-// A longer logo would be a hairline at the height of the clock.
-static constexpr int kWidestLogo = 10, kTallestLogo = 5;
-
-static void read_logo(ObjectReader& r, Picture& picture) {
-    if (!r.has("logo") || r.diagnostics().failed(r.path("logo"))) return;
-    if (picture.logo.empty()) return r.reject("logo", " is empty; name a .png file, or remove the key");
-    const auto path = std::filesystem::path(r.context().source.name).parent_path() / picture.logo;
-    try {
-        const output::Raster raster = output::read_png(path);
-        if (raster.width > kWidestLogo * raster.height || raster.height > kTallestLogo * raster.width)
-            return r.reject_value(
-                r.place("logo"), "logo",
-                " has {} × {} pixels; a logo is at most {} times as wide as high and {} times as high as wide",
-                raster.width, raster.height, kWidestLogo, kTallestLogo);
-        picture.logo_digest = output::digest(raster);
-        picture.logo_image = std::make_shared<const render::Image>(output::to_image(raster));
-    } catch (const output::IoError& error) {
-        r.reject_value(r.place("logo"), "logo", ": {}", error.what());
-    }
-}
-
 void check_picture(ObjectReader& r, Picture& picture) {
-    read_logo(r, picture);
     if (const double memory = memory_of(picture); memory >= kMuchMemory)
         r.diagnostics().warning(r.node()->place,
                                 fmt::format("{} of {} × {} pixels needs about {:.2g} GB of memory for each thread",
                                             r.object_name(), picture.size.width, picture.size.height, memory / 1e9));
-    if (const auto paper = picture.view.paper) {
-        const render::Color ink =
-            picture.view.colors.ink ? render::rgb(*picture.view.colors.ink) : render::palette(picture.view.theme).ink;
-        if (render::contrast(ink, render::rgb(*paper)) < 3)
-            r.warn("background", " makes the text hardly readable; choose another \"theme\"");
-    }
+    if (const auto paper = picture.view.paper;
+        paper && render::contrast(render::palette(picture.view.theme).ink, render::rgb(*paper)) < 3)
+        r.warn("background", " makes the text hardly readable; choose another \"theme\"");
     if (picture.comparison == render::Comparison::ghosts && !r.has("compare"))
         r.diagnostics().warning(
             r.node()->place,

@@ -27,7 +27,6 @@ void infer_units(ObjectReader& r, render::Units& units);
 // The unit of an option's angle or speed becomes theirs; a plain number leaves them.
 void adopt_unit(std::string_view text, const Dimension& dimension, render::Units& units);
 void check_camera(ObjectReader& r, const View& view);  // `r` reads "camera"
-void check_view(ObjectReader& r, const View& view);    // `r` reads "view"
 void check_picture(ObjectReader& r, Picture& picture);
 void check_layout(ObjectReader& r, const Picture& picture);
 void check_speed(ObjectReader& r, const Speed& speed);  // `r` reads "speed"

@@ -14,7 +14,7 @@ static bool needs_cam(const render::Anchor& anchor) {
 }
 
 void check_camera(ObjectReader& r, const View& view) {
-    for (const char* key : {"yaw", "pitch", "swing"})
+    for (const char* key : {"yaw", "pitch"})
         if (r.has(key) && view.style != render::Style::solid)
             r.warn(key, " has an effect in the solid view only; add \"style\": \"solid\"");
     const auto check = [&](const render::Anchor& follow, const std::string& key) {

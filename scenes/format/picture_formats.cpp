@@ -67,15 +67,6 @@ Node color_node(std::uint32_t color) { return fmt::format("#{:06x}", color); }
 
 }  // namespace
 
-ValueFormat color_format(std::optional<std::uint32_t>& color) {
-    const auto read = [](ObjectReader& r, const Node& node, const std::string& key) {
-        const auto given = parse_color(word_in(node));
-        if (!given) r.reject_value(node, key, " is not a colour; write for example \"#0072b2\"");
-        return given;
-    };
-    return format_of(color, "\"#rrggbb\"", R"({"type": "string", "pattern": "^#[0-9a-fA-F]{6}$"})", read, color_node);
-}
-
 ValueFormat background_format(render::View& view) {
     const auto read = [&view](ObjectReader& r, const Node& node, const std::string& key) {
         const std::string text = word_in(node);

@@ -188,7 +188,7 @@ void SweepOutput::visit(SceneVisitor& v) {
 
 void SweepOutput::plan(Planner& planner, std::size_t output) const {
     DataFile data{output, file, kType, {}};
-    if (const Shard& shard = planner.selection().shard; !shard.whole()) {
+    if (const Shard& shard = planner.shard(); !shard.whole()) {
         data.file = part_file(file, shard);
         data.part = shard.text();
     }

@@ -160,10 +160,7 @@ void FigureOutput::visit(SceneVisitor& v) {
     v.check([this](ObjectReader& r) { check_markup(r, "title", title); });
     v.choice("column", column, render::figure::column_names(),
              "The journal's column: width and font size of the figure.");
-    v.number("dpi", dpi, sim::kPlainNumber, between(50, 2400),
-             "Dots per inch of .png (default 300), .tif and .tiff (default 600).");
-    v.choice("text", editable, {{false, "outlines"}, {true, "editable"}},
-             "Of .svg: letters as outlines, which look the same everywhere, or as text in the fonts of the viewer.");
+    v.number("dpi", dpi, sim::kPlainNumber, between(50, 2400), "Dots per inch of .png.");
     v.choice("font", serif, {{false, "sans"}, {true, "serif"}},
              "Liberation Sans, similar to Arial, or Liberation Serif, similar to Times.");
     v.choice("theme", dark, {{false, "light"}, {true, "dark"}}, "Colours for white paper, or for dark slides.");
@@ -198,7 +195,7 @@ void FigureOutput::plan(Planner& planner, std::size_t output) const {
     }
     prepare_figure(planned, planner.scene(), how);
     if (figure_type(figure)->of_sweep()) {
-        if (!planner.selection().shard.whole()) return;  // a part of a sweep has no diagram
+        if (!planner.shard().whole()) return;  // a part of a sweep has no diagram
         planner.require_sweep(file);
     }
     planner.add(std::move(planned));

@@ -39,7 +39,6 @@ render::Motion motion_of(const Pictures& p, const Study& study, const StoredPose
     motion.stored = poses.frames;
     motion.survey = poses.survey ? poses.survey : stored(result.poses[kSurveyPoses], study.request.poses[kSurveyPoses]);
     motion.path = poses.path ? poses.path : stored(result.poses[kPathPoses], study.request.poses[kPathPoses]);
-    motion.exposures = p.view.poses();
     if (p.horizon)  // curves are paler where θ is not reproducible
         for (const Lost& lost : unreliable(result, std::numeric_limits<double>::infinity()))
             motion.unreliable.push_back({lost.from, lost.to});
@@ -108,7 +107,6 @@ render::FilmSetup film_setup(const Plan& plan, std::size_t picture, const Scene&
     setup.width = p.size.width;
     setup.height = p.size.height;
     setup.view = p.view;
-    setup.logo = p.logo_image;
     setup.units = scene.units;
     setup.layout = p.layout;
     setup.comparison = p.comparison;
@@ -118,7 +116,6 @@ render::FilmSetup film_setup(const Plan& plan, std::size_t picture, const Scene&
     setup.callouts = p.callouts;
     setup.data = data_of(scene);
     setup.moves = p.moves;
-    setup.view.strobe = p.view.strobe_every.has_value();
     add_motions(p, results.shown[picture], results.poses[picture], setup);
     return setup;
 }

@@ -47,7 +47,6 @@ std::vector<fs::path> OutputFiles::files_of(const Pictures& p) const {
     if (p.kind != Pictures::Kind::frames) {
         all.push_back(path_of(p.file));
         if (!p.poster_file.empty() && (!p.times_known || p.makes_poster())) all.push_back(path_of(p.poster_file));
-        if (!p.subtitles_file.empty() && p.part.empty()) all.push_back(path_of(p.subtitles_file));
     } else if (!p.times_known) {
         all.push_back(path_of(numbered_file(p.file, 0)));  // at least one, while their number is unknown
     } else {

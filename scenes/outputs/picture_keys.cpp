@@ -1,7 +1,5 @@
 #include "scenes/outputs/picture_keys.hpp"
 
-#include <numbers>
-
 #include "scenes/format/checks.hpp"
 #include "scenes/format/value_formats.hpp"
 
@@ -40,36 +38,18 @@ static void visit_camera(SceneVisitor& v, View& view) {
     v.number("yaw", view.shot.yaw, dim::kAngle, kVisible,
              "In the solid view: yaw angle, to the right of the normal of the plane of motion.");
     v.number("pitch", view.shot.pitch, dim::kAngle, kVisible, "In the solid view: pitch angle, above the horizontal.");
-    v.number("swing", view.swing, dim::kAngle, kVisible,
-             "In the solid view: amplitude of the yaw; during a film the camera swings once to both sides and back.");
     v.list("keyframes", SceneVisitor::items_of(view.keyframes),
            "Movements of the camera in a film; a still shows the camera at its instant.");
     v.check([&view](ObjectReader& r) { check_camera(r, view); });
 }
 
 static void visit(SceneVisitor& v, View& view) {
-    using render::TraceColor;
     v.choice("style", view.style, kStyles,
              "lit: shaded metal from the front (OpenGL); flat: a line drawing; solid: bodies in perspective with "
              "shadows (OpenGL).");
-    v.choice("trace", view.trace, {{TraceColor::force, "force"}, {TraceColor::age, "age"}},
-             "Colour of the contact's trace on the disc: the largest force, or the time since the last touch.");
-    v.choice("tip_path", view.tip_path, {{false, "recent"}, {true, "whole"}},
-             "recent: path of the tip during the last frames; whole: since the first instant of the film, in a still "
-             "since the start of the motion.");
     const bool moved = !(view.shot == render::Shot{}) || !view.keyframes.empty();
     v.object(written_if(moved || view.style == render::Style::solid, "camera"),
              SceneVisitor::keys_of(view, visit_camera), "The camera.", nullptr);
-    v.number("shutter", view.shutter, dim::kAngle,
-             {0, 2 * std::numbers::pi + 1e-9, true, false, "is not an angle above 0 and up to 360 deg"},
-             "Motion blur: shutter angle; 360 deg is the time from frame to frame, 180 deg is usual for cameras.");
-    v.number("strobe", view.strobe_every, dim::kTime, kPositive,
-             "Multiple exposure: the picture also shows the beam at the multiples of this time; cam and hub are shown "
-             "at the instant of the frame only.");
-    v.exclusive("shutter", "strobe");
-    v.integer(written_if(view.poses() > 1, "exposures"), view.exposures, 2, 64,
-              "Number of instants while the shutter is open, or of the latest flashes.");
-    v.check([&view](ObjectReader& r) { check_view(r, view); });
     visit_exaggeration(v, view.exaggeration,
                        "Factor of the deflection, stated on the picture; 1 is the true shape. auto: a round factor "
                        "that suits the motion during the film (at any frame rate), during the scene (stills at events) "
@@ -85,13 +65,6 @@ static void visit(SceneVisitor& v, render::Shown& show) {
     v.boolean("labels", show.labels, "Names, numbers and scale bar in the mechanism.");
 }
 
-static void visit(SceneVisitor& v, render::OwnColors& colors) {
-    v.value("ink", color_format(colors.ink), "Text and axes.");
-    v.value("motion", color_format(colors.motion), "Bending of the beam, and curves of motion.");
-    v.value("contact", color_format(colors.contact), "Forces and impacts.");
-    v.value("steel", color_format(colors.steel), "Bodies.");
-}
-
 void visit_theme(SceneVisitor& v, View& view) {
     using render::Theme;
     v.choice("theme", view.theme, {{Theme::light, "light"}, {Theme::dark, "dark"}, {Theme::print, "print"}},
@@ -99,7 +72,7 @@ void visit_theme(SceneVisitor& v, View& view) {
 }
 
 void visit_picture(SceneVisitor& v, Picture& picture) {
-    using render::Comparison, render::LayerOf;
+    using render::Comparison;
     v.object("view", picture.view, "View of the mechanism.");
     visit_theme(v, picture.view);
     v.value(
@@ -111,17 +84,8 @@ void visit_picture(SceneVisitor& v, Picture& picture) {
         "clock; clean: none), or an object that removes parts. Without the legend the picture does not state the "
         "factor of the deflection.",
         SceneVisitor::keys_of(picture.view.show));
-    v.object(written_if(picture.view.colors != render::OwnColors{}, "palette"),
-             SceneVisitor::keys_of(picture.view.colors), "Colours that replace those of the theme.", nullptr);
-    v.text(written_if(!picture.logo.empty(), "logo"), picture.logo,
-           "A PNG picture, path relative to the scene's folder, in the lower right corner: at the height of the clock, "
-           "right of the colour scales, or above them if they are below the clock.");
-    v.choice(written_if(picture.view.layer != LayerOf::all, "layer"), picture.view.layer,
-             {{LayerOf::all, "all"}, {LayerOf::mechanism, "mechanism"}, {LayerOf::charts, "charts"}},
-             "Part of the picture that is drawn: the mechanism only, or everything else. With a transparent background "
-             "the two layers combine to the whole picture.");
     v.choice(written_if(picture.view.lang != Lang::en, "lang"), picture.view.lang, kLanguages,
-             "Language of labels, subtitles and chapters.");
+             "Language of labels.");
     v.number(written_if(picture.view.show.size != 1, "text_scale"), picture.view.show.size, sim::kPlainNumber,
              between(0.5, 4, "is outside 0.5 … 4"),
              "Size of text, lines and marks; at 1 the numbers of axes have 2 % of the height of a 16:9 picture.");

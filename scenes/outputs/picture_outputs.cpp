@@ -1,4 +1,4 @@
-// Outputs "video", "frames", "still", "page" and "model": pictures of the mechanism and its charts.
+// Outputs "video", "frames", "still" and "page": pictures of the mechanism and its charts.
 
 #include "output/film/video_format.hpp"
 #include "scenes/format/checks.hpp"
@@ -18,46 +18,30 @@ void visit_video(SceneVisitor& v, PictureOutput& video) {
     using output::Codec;
     static const std::vector<Named<Codec>> kCodecs = [] {
         std::vector<Named<Codec>> all;
-        for (const Codec codec : {Codec::h264, Codec::hevc, Codec::vp9, Codec::av1, Codec::prores, Codec::ffv1,
-                                  Codec::gif, Codec::apng, Codec::webp})
+        for (const Codec codec :
+             {Codec::h264, Codec::vp9, Codec::prores, Codec::ffv1, Codec::gif, Codec::webp})
             all.push_back({codec, output::name(codec)});
         return all;
     }();
-    visit_file(v, video.file, {".mp4", ".webm", ".mov", ".mkv", ".gif", ".apng", ".webp"}, ".mp4");
+    visit_file(v, video.file, {".mp4", ".webm", ".mov", ".mkv", ".gif", ".webp"}, ".mp4");
     v.check([&video](ObjectReader&) { set_default_codec(video); });
     visit_picture(v, video);
     visit_span(v, video.span);
     v.value("poster", instant_format(video.span.poster),
             "The first frame at or after this instant is also written as a picture: fall.png beside fall.mp4. For a "
             "time outside the film the nearest frame.");
-    v.choice(
-        written_if(video.subtitles != Subtitles::none, "subtitles"), video.subtitles,
-        {{Subtitles::none, "none"}, {Subtitles::vtt, "vtt"}, {Subtitles::srt, "srt"}, {Subtitles::track, "track"}},
-        "Impacts and texts of the film as a file beside it, fall.vtt or fall.srt, or as a track in it that players "
-        "show on demand (.mp4, .mov, .mkv, .webm).");
-    v.check([&video](ObjectReader& r) {
-        const std::string ending = ending_of(video.file);
-        if (video.subtitles == Subtitles::track && (ending == ".gif" || ending == ".apng" || ending == ".webp"))
-            r.fail(r.place("subtitles"), "subtitles",
-                   ending +
-                       " files have no track of subtitles; choose \"vtt\" or \"srt\", or an .mp4, .mov, .mkv or .webm "
-                       "file");
-    });
-    v.boolean(written_if(video.chapters, "chapters"), video.chapters,
-              "Chapters at the impacts, in .mp4, .mov and .mkv.");
     v.choice(sim::derived("codec"), video.encoding.codec, std::span<const Named<Codec>>(kCodecs),
-             "Codec. The default depends on the ending: .mp4 h264 (or av1, hevc), .webm vp9 (av1), .mov prores (h264, "
-             "hevc), .mkv ffv1 (h264, vp9, av1).");
-    v.integer(
-        "crf", video.encoding.crf, 0, 63,
-        "Quality of h264 and hevc (up to 51), vp9 and av1: 0 is best; the defaults 18, 20, 24 and 26 look lossless.");
+             "Codec. The default depends on the ending: .mp4 h264, .webm vp9, .mov prores (or h264), .mkv ffv1 (or h264, "
+             "vp9).");
+    v.integer("crf", video.encoding.crf, 0, 63,
+              "Quality of h264 (up to 51) and vp9: 0 is best; the defaults 18 and 24 look lossless.");
     v.choice(written_if(video.encoding.codec == Codec::h264, "preset"), video.encoding.preset,
              {"ultrafast", "superfast", "veryfast", "faster", "fast", "medium", "slow", "slower", "veryslow"},
              "Preset of x264, from fast to small files; only for h264.");
     v.choice(written_if(video.encoding.variable_rate, "rate_mode"), video.encoding.variable_rate,
              {{false, "constant"}, {true, "variable"}},
              "variable: an unchanged picture is encoded once and lasts up to 5 s; players show the same film, but some "
-             "editors need a constant rate. Parts (--shard, --frames) are always constant.");
+             "editors need a constant rate.");
     v.check([&video](ObjectReader& r) { check_video(r, video); });
 }
 
@@ -78,15 +62,14 @@ void visit_still(SceneVisitor& v, PictureOutput& p) {
     });
 }
 
-// A page or a model.
-void visit_document(SceneVisitor& v, PictureOutput& p, const char* ending, const char* rate) {
-    visit_file(v, p.file, {ending}, ending);
-    if (p.kind == PictureOutput::Kind::page) {
-        visit_theme(v, p.view);
-        v.choice(written_if(p.view.lang != Lang::en, "lang"), p.view.lang, kLanguages, "Language of the words.");
-    }
+void visit_page(SceneVisitor& v, PictureOutput& p) {
+    visit_file(v, p.file, {".html"}, ".html");
+    visit_theme(v, p.view);
+    v.choice(written_if(p.view.lang != Lang::en, "lang"), p.view.lang, kLanguages, "Language of the words.");
     visit_exaggeration(v, p.view.exaggeration, "Factor of the deflection, as in films.");
-    v.value("fps", frame_rate_format(p.span.fps), rate);
+    v.value("fps", frame_rate_format(p.span.fps),
+            "Poses per second from which the page is made, at least a thousand in all; poses that the page can "
+            "interpolate are left out.");
     visit_bounds(v, p.span);
     v.check([&p](ObjectReader& r) { check_span(r, p.span, p); });
 }
@@ -102,11 +85,7 @@ void PictureOutput::visit(SceneVisitor& v) {
         case Kind::still:
             return visit_still(v, *this);
         case Kind::page:
-            return visit_document(v, *this, ".html",
-                                  "Poses per second from which the page is made, at least a thousand in all; poses "
-                                  "that the page can interpolate are left out.");
-        case Kind::model:
-            return visit_document(v, *this, ".glb", "Poses per second; players interpolate between them.");
+            return visit_page(v, *this);
     }
 }
 
@@ -115,9 +94,11 @@ void PictureOutput::plan(Planner& planner, std::size_t output) const {
     static_cast<PictureOutput&>(p) = *this;
     p.output = output;
     double end = span.to.value_or(planner.scene().end_time);
-    if (kind == Kind::video) p.poster_file = poster_file(*this), p.subtitles_file = subtitles_file(*this);
-    if (is_document()) p.view.style = render::Style::flat;
-    if (kind == Kind::page) p.span.fps = rate_of_page(span.fps, span.from, end);
+    if (kind == Kind::video) p.poster_file = poster_file(*this);
+    if (kind == Kind::page) {
+        p.view.style = render::Style::flat;
+        p.span.fps = rate_of_page(span.fps, span.from, end);
+    }
     if (kind == Kind::still) {
         if (at.kind == Instant::Kind::last) p.at = {.kind = Instant::Kind::time, .t = planner.scene().end_time};
         end = p.at.is_event() ? planner.scene().end_time : p.at.t;

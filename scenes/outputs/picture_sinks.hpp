@@ -9,7 +9,6 @@
 #include "output/film/video.hpp"
 #include "render/film/film.hpp"
 #include "scenes/motions/fan_out.hpp"
-#include "scenes/outputs/film_track.hpp"
 #include "scenes/outputs/output_files.hpp"
 
 namespace beamcam::scenes {
@@ -38,7 +37,6 @@ struct SinkFiles {
     OutputFiles& files;
     RunContext& context;
     std::string accuracy;  // accuracy_note of the pictures
-    FilmTrack track = {};
 };
 
 std::map<std::string, std::string> png_metadata(const SinkFiles& files);

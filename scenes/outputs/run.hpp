@@ -19,10 +19,10 @@ namespace beamcam::scenes {
 struct RunOptions {
     // Folder of the outputs; empty: the file names are paths of the command line.
     std::string directory = ".";
-    int threads = 0;      // for drawing; 0: one for each core
-    bool force = false;   // replace foreign files, and write up-to-date files again
-    Selection selection;  // the part of the work
-    bool quiet = false;   // do not report written files
+    int threads = 0;     // for drawing; 0: one for each core
+    bool force = false;  // replace foreign files, and write up-to-date files again
+    Shard shard;         // the part of a sweep
+    bool quiet = false;  // do not report written files
     bool verbose = false;
     ProgressStyle progress = ProgressStyle::automatic;
 };

@@ -12,7 +12,6 @@
 #include "output/files/atomic_file.hpp"
 #include "render/base/error.hpp"
 #include "render/base/limits.hpp"
-#include "render/film/model.hpp"
 #include "render/film/page.hpp"
 #include "scenes/figures/figure_files.hpp"
 #include "scenes/outputs/film_setup.hpp"
@@ -40,9 +39,9 @@ sim::Table reached_rows(const sim::Table& table) {
 SceneRun::SceneRun(const Scene& scene, RunContext& context)
     : scene_(scene),
       context_(context),
-      up_to_date_(check_up_to_date(scene, context.options.selection, context.options.directory, context.file_list,
+      up_to_date_(check_up_to_date(scene, context.options.shard, context.options.directory, context.file_list,
                                    context.options.force)),
-      plan_(scenes::plan(scene, context.options.selection, up_to_date_.existing)),
+      plan_(scenes::plan(scene, context.options.shard, up_to_date_.existing)),
       files_(scene, up_to_date_.inputs, context),
       motions_(plan_, context.motions) {}
 
@@ -102,7 +101,7 @@ void SceneRun::compute_sweep() {
         sweep_ = std::make_unique<SweepRun>(scene_);
     } else {
         const fs::path store = files_.path_of(plan_.sweep).string() + ".part";
-        sweep_ = std::make_unique<SweepRun>(scene_, context_.options.selection.shard, store, context_.options.force);
+        sweep_ = std::make_unique<SweepRun>(scene_, context_.options.shard, store, context_.options.force);
     }
     const std::uint64_t found = sweep_->points_there();
     if (found > 0) context_.print("found {} of an earlier run\n", counted(found, "point"));
@@ -179,16 +178,13 @@ void SceneRun::write_figure(std::size_t figure) {
 
 void SceneRun::write_pictures(std::size_t picture) {
     const Pictures& p = plan_.pictures[picture];
-    if (p.draw.empty()) return;  // more shards than frames
     stop_if_interrupted();
     warn_of_omissions(p);
     render::FilmSetup setup = film_setup(plan_, picture, scene_, results_);
-    if (p.kind == Pictures::Kind::page) return write_document(p, render::html_page(setup));
-    if (p.kind == Pictures::Kind::model) return write_document(p, render::glb_model(setup));
+    if (p.kind == Pictures::Kind::page) return write_page(p, render::html_page(setup));
     const SinkFiles to{
         scene_, files_, context_,
-        accuracy_note(scene_.problem, p.compare.empty() ? results_.shown[picture].front() : results_.run),
-        film_track(setup, p.view.lang)};
+        accuracy_note(scene_.problem, p.compare.empty() ? results_.shown[picture].front() : results_.run)};
     render::Film film(std::move(setup));
     if (const auto requested = p.view.exaggeration; requested && film.exaggeration_reduced())
         context_.print(
@@ -210,7 +206,7 @@ void SceneRun::write_pictures(std::size_t picture) {
     draw(p, film, *sink, context_);
 }
 
-void SceneRun::write_document(const Pictures& p, const std::string& bytes) {
+void SceneRun::write_page(const Pictures& p, const std::string& bytes) {
     const fs::path file = files_.path_of(p.file);
     output::write_file(files_.target(file, p.output), bytes);
     files_.wrote(file, fmt::format("{:.0f} kB", static_cast<double>(bytes.size()) / 1000));
@@ -230,7 +226,7 @@ void SceneRun::warn_of_omissions(const Pictures& p) const {
                        fmt::join(p.unreached_events, " or "));
     if (const std::string lost = characters_without_font(p, scene_); !lost.empty())
         context_.print("warning: {}\n", lost);
-    if (p.is_document()) return;
+    if (p.kind == Pictures::Kind::page) return;
     if (!context_.options.verbose || context_.options.quiet) return;
     if (const std::string what = omitted_text(p, scene_); !what.empty())
         context_.print("warning: {} shows no {}: {}\n", p.file, what, why_text_is_omitted(p.size));

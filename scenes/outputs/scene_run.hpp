@@ -39,7 +39,7 @@ class SceneRun {
     void write_data(const DataFile& data);
     void write_figure(std::size_t figure);
     void write_pictures(std::size_t picture);
-    void write_document(const Pictures& p, const std::string& bytes);
+    void write_page(const Pictures& p, const std::string& bytes);
     void warn_of_omissions(const Pictures& p) const;
     void attempt(std::size_t output, const std::function<void()>& work);
     void reject(std::size_t output, const std::string& why);

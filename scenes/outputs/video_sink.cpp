@@ -30,12 +30,6 @@ output::VideoOptions options_of(const Pictures& p, render::Film& film, const Sin
     if (options.codec == output::Codec::gif) options.palette = palette_of(film);
     options.metadata = film_metadata(metadata_json(to.scene), to.scene.title);
     options.metadata["beamcam-accuracy"] = to.accuracy;
-    if (!p.part.empty()) options.metadata["beamcam-frames"] = p.part;
-    if (p.chapters && p.part.empty()) options.chapters = to.track.chapters;
-    if (p.subtitles == Subtitles::track && p.part.empty()) {
-        options.subtitles = subtitle_track(to.track.subtitles);
-        options.subtitle_language = p.view.lang == Lang::zh ? "chi" : "eng";
-    }
     return options;
 }
 
@@ -91,7 +85,7 @@ class VideoSink final : public PictureSink {
     // A poster is always drawn.
     bool repeat(long k, const render::Film& film, Gate& gate) override {
         const auto at = static_cast<std::size_t>(k);
-        if (k == 0 || p_.draw[at] != p_.draw[at - 1] + 1 || !film.repeats(p_.draw[at]) || is_poster(at)) return false;
+        if (k == 0 || !film.repeats(p_.draw[at]) || is_poster(at)) return false;
         gate.pass(k, [&] { video_.repeat(); });
         return true;
     }
@@ -114,11 +108,6 @@ class VideoSink final : public PictureSink {
         to_.context.times.encode += spent.encode_seconds;
         to_.context.work.frames_encoded += spent.frames;
         to_.files.wrote(to_.files.path_of(p_.file), counted(p_.draw.size(), "frame"));
-        if (!p_.subtitles_file.empty() && p_.part.empty()) {
-            const std::filesystem::path file = to_.files.path_of(p_.subtitles_file);
-            output::write_file(to_.files.target(file, p_.output), subtitle_file(to_.track.subtitles, p_.subtitles));
-            to_.files.wrote(file, "subtitles");
-        }
         if (p_.makes_poster()) to_.files.wrote(to_.files.path_of(p_.poster_file), "poster");
     }
 
@@ -147,7 +136,6 @@ output::VideoOptions video_options(const Pictures& p) {
     video.height = p.size.height;
     video.fps = p.span.fps;
     static_cast<Encoding&>(video) = p.encoding;
-    video.variable_rate = p.encoding.variable_rate && p.part.empty();
     video.transparent = p.view.transparent;
     if (video.codec == output::Codec::gif) video.palette = {0xffffffff};
     return video;

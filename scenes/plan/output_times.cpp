@@ -162,7 +162,6 @@ bool needs_apexes(const Pictures& p) {
 FilmTimes with_moves(const Pictures& p, FilmTimes times, const sim::Result& motion) {
     const bool shortened = p.span.to || p.ends_at_event();
     if (!times.frames.empty()) add_moves(times, p.view, p.span.fps.value(), motion, shortened);
-    add_exposures(times, p.view, p.span.fps.value(), p.end_time);
     return times;
 }
 
@@ -207,22 +206,9 @@ FilmTimes times_of(const Pictures& p, const sim::Result& motion) {
 
 void choose_frames(Pictures& p, long first, long count) {
     p.first_frame = first;
-    const long begin = first, end = begin + count;
-    long from = begin, to = end;
-    if (p.kind != Pictures::Kind::still && p.selection.frames) {
-        from = std::max(begin, p.selection.frames->first);
-        to = std::min(end, p.selection.frames->second);
-    } else if (p.kind != Pictures::Kind::still) {
-        const auto number = static_cast<long>(p.selection.shard.number),
-                   all = static_cast<long>(p.selection.shard.count);
-        from = begin + count * (number - 1) / all;
-        to = begin + count * number / all;
-    }
-    if (p.kind == Pictures::Kind::video && (from > begin || to < end))
-        p.part = fmt::format("{}:{} of {}:{}", from, to, begin, end);
     p.draw.clear();
-    for (long k = from; k < to; ++k)
-        if (!p.existing.contains(k)) p.draw.push_back(static_cast<int>(k - begin));
+    for (long k = 0; k < count; ++k)
+        if (!p.existing.contains(first + k)) p.draw.push_back(static_cast<int>(k));
 }
 
 void put_times(Pictures& p, FilmTimes times) {
@@ -235,7 +221,7 @@ void put_times(Pictures& p, FilmTimes times) {
     for (Study& motion : p.shown) {
         sim::Request& request = motion.request;
         request.end_time = p.end_time;
-        request.poses[kFramePoses].times = times.exposures.empty() ? times.frames : times.exposures;
+        request.poses[kFramePoses].times = times.frames;
         request.poses[kSurveyPoses].times = times.survey;
         request.poses[kPathPoses].times = times.path;
         request.tables[kChartTable].times = times.chart;

@@ -12,8 +12,8 @@
 
 namespace beamcam::scenes {
 
-Plan plan(const Scene& scene, const Selection& selection, const ExistingWork& existing) {
-    return Planner(scene, selection, existing).make();
+Plan plan(const Scene& scene, const Shard& shard, const ExistingWork& existing) {
+    return Planner(scene, shard, existing).make();
 }
 
 bool Plan::needs_gl() const {
@@ -24,11 +24,8 @@ bool Plan::needs_encoder() const {
     return std::ranges::any_of(pictures, [](const Pictures& p) { return p.kind == Pictures::Kind::video; });
 }
 
-std::vector<double> Plan::times(const Pictures& p) const {
-    const std::vector<double>& all = p.shown.front().request.poses[kFramePoses].times;
-    std::vector<double> out;
-    for (std::size_t i = 0; i < all.size(); i += p.view.poses()) out.push_back(all[i]);
-    return out;
+const std::vector<double>& Plan::times(const Pictures& p) const {
+    return p.shown.front().request.poses[kFramePoses].times;
 }
 
 std::vector<sim::Request> requests_of(const Plan& plan) {
@@ -64,10 +61,11 @@ std::string omitted_text(const Pictures& p, const Scene& scene) {
 }
 
 std::string characters_without_font(const PictureOutput& p, const Scene& scene) {
-    if (p.is_document()) return {};
+    if (p.kind == PictureOutput::Kind::page) return {};
     std::string written = scene.title;
     for (const FilmEvent& event : p.span.events) written += event.text;
     for (const Compared& motion : p.compare) written += motion.label;
+    for (const Measurement& data : scene.data) written += data.label;
     const std::string lost = render::characters_without_font(written);
     return lost.empty() ? lost : fmt::format("{} omits {}: no font has these characters", p.file, lost);
 }
@@ -77,7 +75,5 @@ bool is_slow_motion(const Pictures& p) {
            (p.span.speed.around || p.span.speed.factor <= 0.1 ||
             (p.span.duration && !p.ends_at_event() && p.end_time - p.span.from <= 0.1 * *p.span.duration));
 }
-
-bool Pictures::makes_poster() const { return poster && std::ranges::binary_search(draw, *poster); }
 
 }  // namespace beamcam::scenes

@@ -26,12 +26,6 @@
 
 namespace beamcam::scenes {
 
-// The part of the work that this run does: a range of frames, or one of several shards.
-struct Selection {
-    std::optional<std::pair<long, long>> frames = {};  // numbers of the frames of films and sequences, half open
-    Shard shard = {};
-};
-
 // Results of earlier runs. up_to_date.hpp finds them, so that `plan` reads no files.
 struct ExistingWork {
     std::map<std::size_t, std::string> finished;   // outputs whose files are up to date, and the files
@@ -64,13 +58,10 @@ struct Pictures : PictureOutput {
     bool times_known = true;     // false: they depend on events that have to be found first
     double end_time = 0;         // last time that it needs; an upper bound while times_known is false [s]
     long first_frame = 0;        // number of the first frame
-    Selection selection;         // the requested frames
     std::set<long> existing;     // numbers of the up-to-date frames
     std::vector<int> draw;       // frames to draw, ascending, empty while unknown; camera and scales depend on all
-    std::string part;            // of a film: "30:60 of 0:90"; empty: all of it
     std::optional<int> poster;   // of a video: the frame that is also written to poster_file, as in `draw`
     std::string poster_file;     // empty: none
-    std::string subtitles_file;  // empty: none
     std::vector<double> speeds;  // playback speed at each frame; empty in real time
     std::vector<render::Callout> callouts;
     std::vector<render::CameraMove> moves;
@@ -79,7 +70,7 @@ struct Pictures : PictureOutput {
     std::vector<sim::Channel> chart_channels;
     std::vector<Study> shown;  // the scene's motion, or those of a comparison
 
-    bool makes_poster() const;  // the poster is among the drawn frames
+    bool makes_poster() const { return poster.has_value(); }
     bool ends_at_event() const { return kind != Kind::still && span.to_event.has_value(); }
 };
 struct FigureFile {
@@ -129,10 +120,11 @@ struct Plan {
 
     bool needs_gl() const;                                      // a lit view
     bool needs_encoder() const;                                 // a video
-    std::vector<double> times(const Pictures& pictures) const;  // of its frames; empty while they are unknown
+    const std::vector<double>& times(const Pictures& pictures) const;  // of its frames; empty while they are unknown
 };
 
-Plan plan(const Scene& scene, const Selection& selection = {}, const ExistingWork& existing = {});
+// `shard`: the part of the sweep that this run computes.
+Plan plan(const Scene& scene, const Shard& shard = {}, const ExistingWork& existing = {});
 
 // The requests for the scene's motion: for data files, then those of the pictures and figures that show it.
 std::vector<sim::Request> requests_of(const Plan& plan);

@@ -59,12 +59,6 @@ std::optional<std::pair<sim::Channel, sim::Channel>> drawn_curve(const std::vect
     return std::nullopt;
 }
 
-// Shards divide films, sequences and sweeps.
-bool is_shared(const Output& output) {
-    const auto* pictures = std::get_if<PictureOutput>(&output);
-    return (pictures && pictures->has_frames()) || std::holds_alternative<SweepOutput>(output);
-}
-
 // The number of the first frame, and how many there are; nullopt if that depends on events.
 std::optional<std::pair<long, long>> known_numbers(const Pictures& p, const FilmTimes& times) {
     if (p.times_known) return std::pair(times.first, static_cast<long>(std::ssize(times.frames)));
@@ -75,18 +69,15 @@ std::optional<std::pair<long, long>> known_numbers(const Pictures& p, const Film
 
 }  // namespace
 
-Planner::Planner(const Scene& scene, const Selection& selection, const ExistingWork& existing)
-    : scene_(scene),
-      selection_(selection),
-      existing_(existing),
-      simulation_{scene.problem, motion_key(scene.problem)} {}
+Planner::Planner(const Scene& scene, const Shard& shard, const ExistingWork& existing)
+    : scene_(scene), shard_(shard), existing_(existing), simulation_{scene.problem, motion_key(scene.problem)} {}
 
 Plan Planner::make() {
     for (std::size_t i = 0; i < scene_.outputs.size(); ++i) {
         const Output& output = scene_.outputs[i];
         if (const auto finished = existing_.finished.find(i); finished != existing_.finished.end()) {
             plan_.kept.push_back(finished->second);
-        } else if (selection_.shard.number == 1 || is_shared(output)) {
+        } else {
             std::visit([&](const auto& each) { each.plan(*this, i); }, output);
         }
     }
@@ -117,9 +108,7 @@ std::size_t Planner::add_table(std::vector<double> times, std::vector<sim::Chann
 
 void Planner::add(Pictures p, double end) {
     p.end_time = end;
-    p.selection = selection_;
     if (const auto found = existing_.frames.find(p.output); found != existing_.frames.end()) p.existing = found->second;
-    if (p.kind == Pictures::Kind::video && !selection_.shard.whole()) p.file = shard_file(p.file, selection_.shard);
     const bool still = p.kind == Pictures::Kind::still;
     p.collisions = shows_collisions(p, scene_.problem);
     const bool moves_by_events = std::ranges::any_of(p.view.keyframes, &Instant::is_event, &Keyframe::at);
@@ -133,7 +122,6 @@ void Planner::add(Pictures p, double end) {
         choose_frames(p, first, count);
         if (!p.existing.empty())
             plan_.kept.push_back(fmt::format("{} of {}", counted(p.existing.size(), "frame"), p.file));
-        if (p.draw.empty()) return;
     }
     if (p.compare.empty()) p.shown.push_back({.problem = scene_.problem, .key = simulation_.key, .of_scene = true});
     for (const Compared& each : p.compare)

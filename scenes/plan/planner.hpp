@@ -10,13 +10,13 @@ namespace beamcam::scenes {
 
 class Planner {
   public:
-    Planner(const Scene& scene, const Selection& selection, const ExistingWork& existing);
+    Planner(const Scene& scene, const Shard& shard, const ExistingWork& existing);
     Plan make();
 
     // ---- called by the output types ----
 
     const Scene& scene() const { return scene_; }
-    const Selection& selection() const { return selection_; }
+    const Shard& shard() const { return shard_; }
     // End of a run for all outputs, up-to-date ones included [s].
     double run_end() const;
     // The scene's motion is needed until `t` [s], or until an event that has to be found first.
@@ -40,7 +40,7 @@ class Planner {
     void add_requests(const Pictures& p, Study& motion) const;
 
     const Scene& scene_;
-    const Selection& selection_;
+    const Shard& shard_;
     const ExistingWork& existing_;
     Plan plan_;
     PlannedMotion simulation_;

@@ -17,9 +17,8 @@ namespace fs = std::filesystem;
 
 class UpToDateCheck {
   public:
-    UpToDateCheck(const Scene& scene, const Selection& selection, const std::string& directory,
-                  output::FileList& file_list)
-        : scene_(scene), whole_(plan(scene, selection)), directory_(directory), file_list_(file_list) {
+    UpToDateCheck(const Scene& scene, const Shard& shard, const std::string& directory, output::FileList& file_list)
+        : scene_(scene), whole_(plan(scene, shard)), directory_(directory), file_list_(file_list) {
         found_.inputs.resize(scene.outputs.size());
     }
 
@@ -34,8 +33,6 @@ class UpToDateCheck {
 
   private:
     std::string part_of(std::size_t output) const {
-        for (const Pictures& p : whole_.pictures)
-            if (p.output == output) return p.part;
         for (const DataFile& d : whole_.data)
             if (d.output == output) return d.part;
         return {};
@@ -118,7 +115,6 @@ std::string inputs_key(const Scene& scene, std::size_t output, double until, con
     if (extent != Extent::scene || of_sweep) inputs.end_time = extent == Extent::run ? until : 0;
     std::string other = part;
     for (const Measurement& each : inputs.data) other += "\n" + each.digest;
-    if (const auto* picture = std::get_if<PictureOutput>(&one)) other += picture->logo_digest;
     if (figure) {  // not part of the scene
         const char* epoch = figure->file.ends_with(".png") ? nullptr : std::getenv("SOURCE_DATE_EPOCH");
         other += fmt::format("\n{}", epoch ? epoch : "");
@@ -126,9 +122,9 @@ std::string inputs_key(const Scene& scene, std::size_t output, double until, con
     return output::sha256(fmt::format("inputs\n{}\n{}\n{}", program_identity(), other, metadata_json(inputs)));
 }
 
-UpToDate check_up_to_date(const Scene& scene, const Selection& selection, const std::string& directory,
+UpToDate check_up_to_date(const Scene& scene, const Shard& shard, const std::string& directory,
                           output::FileList& file_list, bool ignore_files) {
-    return UpToDateCheck(scene, selection, directory, file_list).run(ignore_files);
+    return UpToDateCheck(scene, shard, directory, file_list).run(ignore_files);
 }
 
 fs::path place_of(const std::string& directory, const std::string& file) {

@@ -11,7 +11,7 @@
 namespace beamcam::scenes {
 
 // SHA-256 of everything that the files of one output depend on: an input that it misses would keep an outdated file.
-// `until`: end of the run, for outputs about the whole run. `part`: the frames of a film; empty: all.
+// `until`: end of the run, for outputs about the whole run. `part`: of a sweep, "2/3"; empty: all.
 std::string inputs_key(const Scene& scene, std::size_t output, double until, const std::string& part);
 
 struct UpToDate {
@@ -20,7 +20,7 @@ struct UpToDate {
 };
 
 // `directory` as in RunOptions. `ignore_files`: no file counts as up to date.
-UpToDate check_up_to_date(const Scene& scene, const Selection& selection, const std::string& directory,
+UpToDate check_up_to_date(const Scene& scene, const Shard& shard, const std::string& directory,
                           output::FileList& file_list, bool ignore_files);
 
 // The path of an output's file; with an empty `directory` the name is the path.

@@ -144,7 +144,7 @@ class Reader {
             table->rate = table->rate.value_or(kRate);
         if (picture_of(entry.output(), video))
             return reject_output(entry, ": films are compared before they are encoded; write \"type\": \"frames\"");
-        if (const auto* pictures = std::get_if<PictureOutput>(&entry.output()); pictures && pictures->is_document())
+        if (picture_of(entry.output(), page))
             return reject_output(entry, ": this type has no pictures; write \"type\": \"frames\"");
         if (const PictureOutput* sequence = picture_of(entry.output(), frames)) {
             const double last = sequence->span.to.value_or(entry.scene.end_time);

@@ -86,23 +86,10 @@ std::string problem_with_file(std::string_view file) {
 }
 
 const char* kind_without_scene(std::string_view ending) {
-    static constexpr std::pair<std::string_view, const char*> kKinds[] = {{".csv", "table"},
-                                                                          {".npz", "table"},
-                                                                          {".nc", "NetCDF table"},
-                                                                          {".json", "record"},
-                                                                          {".points", "part of a sweep"},
-                                                                          {".gif", "film"},
-                                                                          {".apng", "film"},
-                                                                          {".webp", "film"},
-                                                                          {".srt", "subtitles"},
-                                                                          {".vtt", "subtitles"},
-                                                                          {".eps", "EPS figure"},
-                                                                          {".tif", "TIFF figure"},
-                                                                          {".tiff", "TIFF figure"},
-                                                                          {".html", "page"},
-                                                                          {".glb", "model"},
-                                                                          {".txt", "caption"},
-                                                                          {".md", "caption"}};
+    static constexpr std::pair<std::string_view, const char*> kKinds[] = {
+        {".csv", "table"},   {".npz", "table"},      {".nc", "NetCDF table"}, {".points", "part of a sweep"},
+        {".json", "record"}, {".gif", "film"},       {".webp", "film"},       {".pdf", "PDF figure"},
+        {".html", "page"},   {".svg", "SVG figure"}, {".txt", "caption"},     {".md", "caption"}};
     const auto found = std::ranges::find(kKinds, ending, &std::pair<std::string_view, const char*>::first);
     return found == std::end(kKinds) ? nullptr : found->second;
 }
@@ -162,15 +149,10 @@ std::vector<FileClaims::Clash> FileClaims::clashes() const {
 
 std::string Shard::text() const { return fmt::format("{}/{}", number, count); }
 
-std::string shard_file(const std::string& file, const Shard& shard) {
-    const std::filesystem::path path(file);
-    return (path.parent_path() /
-            fmt::format("{}.{}of{}{}", path.stem().string(), shard.number, shard.count, path.extension().string()))
-        .string();
-}
-
 std::string part_file(const std::string& file, const Shard& shard) {
-    return std::filesystem::path(shard_file(file, shard)).replace_extension(".points").string();
+    const std::filesystem::path path(file);
+    return (path.parent_path() / fmt::format("{}.{}of{}.points", path.stem().string(), shard.number, shard.count))
+        .string();
 }
 
 }  // namespace beamcam::scenes

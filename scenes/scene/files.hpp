@@ -18,8 +18,7 @@ std::string problem_with_numbering(std::string_view file);
 bool is_numbered(std::string_view file);
 inline bool is_stdout(std::string_view file) { return file == "-"; }
 std::string ending_of(const std::filesystem::path& file);  // ".png"
-// What a file with this ending is, if its format holds no scene, which then is in the list of files beside it; null: it
-// does.
+// What a file with this ending is, if `info` reads no scene from it but from the list of files beside it; null: it does.
 const char* kind_without_scene(std::string_view ending);
 
 // "a-####.png" and 12 give "a-0012.png"; longer numbers get more digits.
@@ -27,14 +26,12 @@ std::string numbered_file(std::string_view pattern, long number);
 // The number of `file` in the sequence; nullopt if it is not a part of it.
 std::optional<long> number_of(std::string_view pattern, std::string_view file);
 
-// One of several parts of the work, by its number from 1.
+// One of several parts of a sweep, by its number from 1.
 struct Shard {
     std::uint64_t number = 1, count = 1;
     bool whole() const { return count == 1; }
     std::string text() const;  // "2/3"
 };
-// "fall.mp4" as the second of three parts: "fall.2of3.mp4".
-std::string shard_file(const std::string& file, const Shard& shard);
 // The file of a part of a sweep: "r.csv" as the second of three parts is "r.2of3.points".
 std::string part_file(const std::string& file, const Shard& shard);
 

@@ -15,7 +15,6 @@ namespace beamcam::scenes {
 
 struct FilmTimes {
     std::vector<double> frames;     // [s] of the motion, not decreasing
-    std::vector<double> exposures;  // of each frame, its own time first; empty: only that
     long first = 0;                 // number of the first frame
     std::vector<double> speeds;     // of each frame; empty in real time
     std::vector<render::Callout> callouts;
@@ -56,9 +55,6 @@ FilmTimes still_times(const Instant& at, const sim::Result& motion, double until
 // The camera's movements to the keyframes. Throws render::PictureError for an event that does not occur; `shortened`:
 // such a keyframe is skipped.
 void add_moves(FilmTimes& times, const View& view, double fps, const sim::Result& motion, bool shortened);
-
-// The times of a view's shutter or strobe, within 0 … `end`.
-void add_exposures(FilmTimes& times, const View& view, double fps, double end);
 
 // The first of the frames at or after this time, else the last one.
 int first_at(const std::vector<double>& frames, double t);

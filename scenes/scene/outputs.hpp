@@ -13,9 +13,6 @@
 namespace beamcam::scenes {
 
 using render::Lang;
-// track: in the film itself.
-enum class Subtitles { none, vtt, srt, track };
-
 class Planner;       // plan/planner.hpp
 class SceneVisitor;  // format/keys.hpp
 
@@ -33,19 +30,16 @@ enum class Extent { keys, scene, run };
 
 // Pictures of the mechanism.
 struct PictureOutput : Picture {
-    enum class Kind { video, frames, still, page, model };
+    enum class Kind { video, frames, still, page };
     static constexpr OutputInputs kInputs{.title = true, .units = true, .data = true};
 
     Kind kind = Kind::video;
-    std::string file;                       // relative to the output directory; of frames with one run of '#'
-    FrameSpan span = {};                    // of all but stills
-    Instant at = {};                        // of a still
-    Encoding encoding = {};                 // this and the next two of a video
-    Subtitles subtitles = Subtitles::none;  // a file beside it
-    bool chapters = false;                  // in it, at impacts
+    std::string file;        // relative to the output directory; of frames with one run of '#'
+    FrameSpan span = {};     // of all but stills
+    Instant at = {};         // of a still
+    Encoding encoding = {};  // of a video
 
     bool has_frames() const { return kind == Kind::video || kind == Kind::frames; }
-    bool is_document() const { return kind == Kind::page || kind == Kind::model; }  // it plays the motion, without text
     static PictureOutput of(Kind kind);
     Extent extent() const;
     void visit(SceneVisitor& v);
@@ -60,9 +54,7 @@ inline constexpr PictureType kPictureTypes[] = {
     {PictureOutput::Kind::frames, "frames", "A sequence of PNG files."},
     {PictureOutput::Kind::still, "still", "One picture."},
     // It leaves out poses that it can interpolate, and adapts to any window size.
-    {PictureOutput::Kind::page, "page", "A self-contained HTML page that plays the motion."},
-    {PictureOutput::Kind::model, "model",
-     "An animated three-dimensional model of the mechanism, for Blender and slides."}};
+    {PictureOutput::Kind::page, "page", "A self-contained HTML page that plays the motion."}};
 
 struct TrajectoryOutput {
     static constexpr const char *kType = "trajectory", *kMeaning = "A table of channels against time.";
@@ -130,28 +122,6 @@ struct SweepOutput {
     void visit(SceneVisitor& v);
     void plan(Planner& planner, std::size_t output) const;
 };
-inline constexpr std::initializer_list<const char*> kSweepFilmEndings{".mp4", ".mov", ".mkv", ".webm"};
-struct SweepFilmOutput {
-    static constexpr const char
-        *kType = "sweep-film",
-        *kMeaning =
-            "A film of the scene's sweep over one key: a growing bifurcation diagram beside the motion at that value.";
-    static constexpr OutputInputs kInputs{.title = true, .units = true, .sweep = true};
-    std::string file;  // .mp4, .mov, .mkv or .webm
-    Size size;
-    FrameRate fps{30, 1};
-    double duration = 30;  // [s]
-    double turns = 2;      // of the cam per second of the film
-    render::Style style = render::Style::lit;
-    std::optional<double> exaggeration = {};
-    Lang lang = Lang::en;
-    std::string value = {};  // column of the diagram; empty: default
-    std::optional<int> crf = {};
-
-    Extent extent() const { return Extent::keys; }
-    void visit(SceneVisitor& v);
-    void plan(Planner& planner, std::size_t output) const;
-};
 // A curve that is a sum of channels of one unit; channels without values add nothing.
 struct SeriesSum {
     std::string label;
@@ -191,7 +161,7 @@ struct SeriesKeys {
 
     bool needs_events() const { return from_event || to_event || (at && at->is_event()); }
 };
-inline constexpr std::initializer_list<const char*> kFigureEndings{".pdf", ".svg", ".eps", ".png", ".tif", ".tiff"};
+inline constexpr std::initializer_list<const char*> kFigureEndings{".pdf", ".svg", ".png"};
 struct FigureOutput {
     static constexpr const char *kType = "figure",
                                 *kMeaning = "A figure for print; `beamcam figure SCENE` lists all figures.";
@@ -202,10 +172,9 @@ struct FigureOutput {
     std::string column = "elsevier";  // of a journal, see render/plot/style.hpp
     std::optional<double> width;      // [m]; nullopt: that of the column
     Lang lang = Lang::en;
-    std::optional<double> dpi;  // nullopt: 300 for .png, 600 for .tif
-    bool editable = false;      // .svg contains text, not outlines
-    bool serif = false;         // serif font, as in LaTeX documents
-    bool dark = false;          // dark theme, for slides
+    double dpi = 300;    // of .png
+    bool serif = false;  // serif font, as in LaTeX documents
+    bool dark = false;   // dark theme, for slides
     SeriesKeys series;
     std::string value = {};               // column of a sweep's diagram; empty: default
     std::string data_file, caption_file;  // empty: none
@@ -214,12 +183,10 @@ struct FigureOutput {
         const bool ends = series.to || (series.at && series.at->kind == Instant::Kind::time);
         return ends ? Extent::keys : Extent::scene;
     }
-    bool is_tiff() const { return file.ends_with(".tif") || file.ends_with(".tiff"); }
-    double resolution() const { return dpi.value_or(is_tiff() ? 600 : 300); }
     void visit(SceneVisitor& v);
     void plan(Planner& planner, std::size_t output) const;
 };
 using Output = std::variant<PictureOutput, FigureOutput, TrajectoryOutput, ShapesOutput, ImpactsOutput, StateOutput,
-                            SweepOutput, SweepFilmOutput, SummaryOutput>;
+                            SweepOutput, SummaryOutput>;
 
 }  // namespace beamcam::scenes

@@ -95,14 +95,6 @@ struct Keyframe {
 };
 struct View : render::View {
     std::vector<Keyframe> keyframes = {};
-    std::optional<double> shutter = {};       // shutter angle; 2π is the whole frame [rad]
-    std::optional<double> strobe_every = {};  // interval of the flashes [s of the motion]; excludes the shutter
-    int exposures = 8;                        // while the shutter is open, or number of the latest flashes
-
-    // Number of poses in a frame.
-    std::size_t poses() const {
-        return static_cast<std::size_t>(shutter ? exposures : strobe_every ? exposures + 1 : 1);
-    }
 };
 
 // The keys of all pictures.
@@ -114,9 +106,6 @@ struct Picture {
     std::vector<Compared> compare;
     render::Comparison comparison = render::Comparison::panels;
     bool horizon = false;  // strip charts are paler where θ is not reproducible
-    std::string logo;      // picture file relative to the scene's folder; may be empty
-    std::string logo_digest;
-    std::shared_ptr<const render::Image> logo_image;
 };
 
 // Frames at the times k / fps with from <= k / fps < to, by rounded frame numbers. With another speed than real time,

@@ -30,19 +30,13 @@ std::string poster_file(const PictureOutput& video) {
     return std::filesystem::path(video.file).replace_extension(".png").generic_string();
 }
 
-std::string subtitles_file(const PictureOutput& video) {
-    if (video.subtitles == Subtitles::none || video.subtitles == Subtitles::track) return {};
-    const char* ending = video.subtitles == Subtitles::vtt ? ".vtt" : ".srt";
-    return std::filesystem::path(video.file).replace_extension(ending).generic_string();
-}
-
 std::vector<std::string> written_by(const Output& output) {
     std::vector<std::string> files{file_of(output)};
     const auto add_unless_empty = [&files](std::initializer_list<std::string> beside) {
         std::ranges::copy_if(beside, std::back_inserter(files), [](const std::string& file) { return !file.empty(); });
     };
     if (const auto* video = picture_of(output, PictureOutput::Kind::video))
-        add_unless_empty({poster_file(*video), subtitles_file(*video)});
+        add_unless_empty({poster_file(*video)});
     if (const auto* figure = std::get_if<FigureOutput>(&output))
         add_unless_empty({figure->data_file, figure->caption_file});
     return files;

@@ -17,7 +17,6 @@ constexpr double kMuchMemory = 1e9;
 
 const std::string& file_of(const Output& output);
 std::string poster_file(const PictureOutput& video);        // "fall.png" beside "fall.mp4"; empty: none
-std::string subtitles_file(const PictureOutput& video);     // "fall.vtt"; empty: none
 std::vector<std::string> written_by(const Output& output);  // its file and its secondary files
 OutputInputs inputs_of(const Output& output);
 bool is_data(const Output& output);

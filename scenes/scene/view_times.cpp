@@ -1,4 +1,4 @@
-// The camera's movements and the exposures of a film's frames.
+// The camera's movements in a film.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -44,29 +44,6 @@ void add_moves(FilmTimes& times, const View& view, double fps, const sim::Result
         const double since = std::max(0.0, frame - before);
         times.moves.push_back({frame, key->over ? *key->over * fps : since, key->ease, shot});
         before = frame;
-    }
-}
-
-void add_exposures(FilmTimes& times, const View& view, double fps, double end) {
-    if (view.poses() == 1) return;
-    const std::vector<double>& frames = times.frames;
-    for (std::size_t k = 0; k < frames.size(); ++k) {
-        const double t = frames[k];
-        if (view.shutter) {
-            const double before = k > 0 ? t - frames[k - 1] : 1 / fps;  // the last frame is as long as the one before
-            double whole = k + 1 < frames.size() ? frames[k + 1] - t : before;
-            if (frames.size() == 1) whole = -whole;  // a still uses the time before it: the motion may end there
-            for (int i = 0; i < view.exposures; ++i)
-                times.exposures.push_back(
-                    std::clamp(t + whole * *view.shutter / (2 * std::numbers::pi) * i / view.exposures, 0.0, end));
-            continue;
-        }
-        times.exposures.push_back(t);
-        const double flash = std::ceil(t / *view.strobe_every) - 1;  // the latest before t
-        for (int i = view.exposures - 1; i >= 0; --i) {
-            const double at = (flash - i) * *view.strobe_every;
-            times.exposures.push_back(at < 0 ? t : at);
-        }
     }
 }
 

@@ -31,7 +31,6 @@ OUTPUTS = {
     "frames": '{"type": "frames", "file": "a-###.png", "fps": 100, %s}' % VIEW,
     "video with poster": '{"type": "video", "file": "a.mp4", "fps": 120, "poster": 0.1, %s}' % VIEW,
     "gif": '{"type": "video", "file": "a.gif", "fps": 50, %s}' % VIEW,
-    "apng": '{"type": "video", "file": "a.apng", "fps": 50, %s}' % VIEW,
     "webp": '{"type": "video", "file": "a.webp", "fps": 50, %s}' % VIEW,
     "figure pdf": '{"type": "figure", "file": "a.pdf", "figure": "angle"}',
     "figure svg": '{"type": "figure", "file": "a.svg", "figure": "angle"}',

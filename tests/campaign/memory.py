@@ -33,8 +33,8 @@ OUTPUTS = {
     "impacts": '{"type": "impacts", "file": "a.json"}',
     "summary": '{"type": "summary", "file": "a.json"}',
     **{f"film {e} {c}": f'{{"type": "video", "file": "a.{e}", "codec": "{c}", "fps": 10, {SIZE}, {FLAT}}}'
-       for e, c in (("mp4", "h264"), ("webm", "vp9"), ("webm", "av1"), ("mov", "prores"), ("mkv", "ffv1"), ("gif", "gif"),
-                    ("apng", "apng"), ("webp", "webp"))},
+       for e, c in (("mp4", "h264"), ("webm", "vp9"), ("mov", "prores"), ("mkv", "ffv1"), ("gif", "gif"),
+                    ("webp", "webp"))},
     "lit film": f'{{"type": "video", "file": "a.mp4", "fps": 10, {SIZE}, {LIT}}}',
 }
 

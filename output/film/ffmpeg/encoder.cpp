@@ -11,6 +11,7 @@
 extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
+#include <libavutil/intreadwrite.h>
 #include <libavutil/pixdesc.h>
 }
 
@@ -30,28 +31,30 @@ struct OwnedFrame : FramePlanes {
     }
 };
 
-// Empty: unknown.
-std::vector<std::string> pixel_formats_of(const AVCodec& codec) {
-#if LIBAVCODEC_VERSION_INT >= AV_VERSION_INT(61, 13, 100)
-    const void* found = nullptr;
-    if (avcodec_get_supported_config(nullptr, &codec, AV_CODEC_CONFIG_PIX_FORMAT, 0, &found, nullptr) < 0) return {};
-    const auto* format = static_cast<const AVPixelFormat*>(found);
-#else
-    const AVPixelFormat* format = codec.pix_fmts;
-#endif
-    std::vector<std::string> out;
-    for (; format != nullptr && *format != AV_PIX_FMT_NONE; ++format) out.emplace_back(av_get_pix_fmt_name(*format));
-    return out;
+const AVCodec& encoder_of(const EncoderSettings& s) {
+    const AVCodec* codec = avcodec_find_encoder_by_name(s.encoder.c_str());
+    if (codec == nullptr) throw MissingCodec(s.missing);
+    return *codec;
 }
 
-const AVCodec& first_encoder(const EncoderSettings& s) {
-    std::vector<AvailableEncoder> available;
-    for (const std::string& name : s.encoders)
-        if (const AVCodec* codec = avcodec_find_encoder_by_name(name.c_str()))
-            available.push_back({name, pixel_formats_of(*codec)});
-    const AvailableEncoder* chosen = chosen_encoder(s.encoders, s.pixel_format, available);
-    if (chosen == nullptr) throw MissingCodec(s.missing);
-    return *avcodec_find_encoder_by_name(chosen->name.c_str());
+// libwebp gives the last picture of an animation the mean duration of the others. Sets its duration such that all last
+// `total` [ms]. A WebP of one picture has no durations. Layout: "RIFF", size, "WEBP", then chunks of name, size, content
+// and a byte of padding for odd sizes; a chunk "ANMF" begins with five numbers of 24 bits, of which the last is the
+// duration (https://developers.google.com/speed/webp/docs/riff_container).
+void put_last_duration(AVPacket& packet, std::int64_t total) {
+    constexpr std::size_t kFirstChunk = 12, kHead = 8, kDuration = 12;  // [bytes]
+    std::uint8_t* last = nullptr;
+    const auto size = static_cast<std::size_t>(packet.size);
+    for (std::size_t at = kFirstChunk; at + kHead + kDuration + 3 <= size;) {
+        std::uint8_t* chunk = packet.data + at;
+        if (std::memcmp(chunk, "ANMF", 4) == 0) {
+            if (last != nullptr) total -= AV_RL24(last);
+            last = chunk + kHead + kDuration;
+        }
+        const std::size_t content = AV_RL32(chunk + 4);
+        at += kHead + content + content % 2;
+    }
+    if (last != nullptr) AV_WL24(last, static_cast<std::uint32_t>(total));
 }
 
 bool is_yuv(AVPixelFormat format) {
@@ -62,14 +65,11 @@ bool is_yuv(AVPixelFormat format) {
 class FfmpegEncoder : public Encoder {
   public:
     explicit FfmpegEncoder(const EncoderSettings& s)
-        : encoder_(first_encoder(s)), file_(s.file, s.named, s.container), settings_(s) {
+        : encoder_(encoder_of(s)), file_(s.file, s.named, s.container), settings_(s) {
         describe_pictures();
         open_codec();
         open_file();
     }
-    ~FfmpegEncoder() override { run_dry(); }
-    FfmpegEncoder(const FfmpegEncoder&) = delete;
-    FfmpegEncoder& operator=(const FfmpegEncoder&) = delete;
 
     FramePlanes& make_frame() override {
         auto frame = std::make_unique<OwnedFrame>();
@@ -105,7 +105,7 @@ class FfmpegEncoder : public Encoder {
     void finish() override {
         if (const int code = avcodec_send_frame(codec_.get(), nullptr); code < 0) fail("encoding", code);
         drain();
-        ended_ = true;
+        if (encoder_.id == AV_CODEC_ID_GIF) file_.set_last_delay(stamp_of(next_frame_) - stamp_of(next_frame_ - 1));
         file_.end();
     }
 
@@ -117,8 +117,6 @@ class FfmpegEncoder : public Encoder {
         codec_->framerate = {settings_.fps.numerator, settings_.fps.denominator};
         codec_->sample_aspect_ratio = {1, 1};
         codec_->pix_fmt = av_get_pix_fmt(settings_.pixel_format.c_str());
-        if (encoder_.id == AV_CODEC_ID_HEVC)
-            codec_->codec_tag = MKTAG('h', 'v', 'c', '1');  // required by Apple's players
         if (!is_yuv(codec_->pix_fmt)) return;
         codec_->color_primaries = AVCOL_PRI_BT709;
         codec_->color_trc = AVCOL_TRC_BT709;
@@ -131,11 +129,10 @@ class FfmpegEncoder : public Encoder {
         codec_->thread_count = kThreads;
         if ((file_.format().oformat->flags & AVFMT_GLOBALHEADER) != 0) codec_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
         AVDictionary* options = nullptr;
-        add_options(&options, settings_.encoder_options, encoder_.name);
+        add_options(&options, settings_.encoder_options);
         int code = avcodec_open2(codec_.get(), &encoder_, &options);
         if (code >= 0 && av_dict_count(options) > 0) code = AVERROR_OPTION_NOT_FOUND;
         av_dict_free(&options);
-        if (code == AVERROR(ENOTSUP)) throw MissingCodec(settings_.missing);  // a libx265 without alpha
         if (code < 0) fail("opening the encoder", code);
     }
 
@@ -147,10 +144,14 @@ class FfmpegEncoder : public Encoder {
         const int code = avcodec_parameters_from_context(stream.codecpar, codec_.get());
         if (code < 0) fail("setting up the film", code);
         for (const auto& [key, value] : settings_.metadata) file_.set_tag(key, value);
-        file_.set_chapters(settings_.chapters);
-        file_.set_subtitles(settings_.subtitles, settings_.subtitle_language);
         file_.write_header(settings_.container_options);
     }
+
+    // The time stamp in the file at the beginning of a frame; at the end of the film for the number of frames.
+    std::int64_t stamp_of(std::int64_t frame) const {
+        return av_rescale_q(frame, codec_->time_base, file_.stream().time_base);
+    }
+    std::int64_t milliseconds() const { return av_rescale_q(next_frame_, codec_->time_base, {1, 1000}); }
 
     // Writes the finished packets of the encoder to the file.
     void drain() {
@@ -161,26 +162,10 @@ class FfmpegEncoder : public Encoder {
             packet_->stream_index = file_.stream().index;
             // libx264 omits it, and the last frame would have no duration. An animated WebP is one packet.
             if (packet_->duration == 0) packet_->duration = 1;
+            if (encoder_.id == AV_CODEC_ID_WEBP) put_last_duration(*packet_, milliseconds());
             av_packet_rescale_ts(packet_.get(), codec_->time_base, file_.stream().time_base);
             file_.write(*packet_);
         }
-    }
-
-    // SVT-AV1 waits forever if it is closed before it has received a picture and the end of the film: sends them and
-    // drops the packets.
-    void run_dry() noexcept {
-        if (!codec_ || !avcodec_is_open(codec_.get()) || ended_ || std::strcmp(encoder_.name, "libsvtav1") != 0) return;
-        if (next_frame_ == 0) {
-            const Owned<AVFrame> blank(av_frame_alloc());
-            if (!blank) return;
-            blank->format = codec_->pix_fmt;
-            blank->width = codec_->width;
-            blank->height = codec_->height;
-            blank->pts = 0;
-            if (av_frame_get_buffer(blank.get(), 0) >= 0) avcodec_send_frame(codec_.get(), blank.get());
-        }
-        avcodec_send_frame(codec_.get(), nullptr);
-        while (avcodec_receive_packet(codec_.get(), packet_.get()) >= 0) av_packet_unref(packet_.get());
     }
 
     const AVCodec& encoder_;
@@ -190,7 +175,6 @@ class FfmpegEncoder : public Encoder {
     Owned<AVCodecContext> codec_ = owned(avcodec_alloc_context3(&encoder_));
     std::vector<std::unique_ptr<OwnedFrame>> frames_;
     std::int64_t next_frame_ = 0;
-    bool ended_ = false;  // all packets are written
 };
 
 }  // namespace

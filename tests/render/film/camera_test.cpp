@@ -175,39 +175,6 @@ TEST(Camera, AFilmWhoseCameraMovesDoesNotStandStill) {
     EXPECT_TRUE(film.repeats(25));
 }
 
-// ---- several exposures in one picture ----------------------------------------------------------
-
-// The mean of equal exposures equals one of them; that of different ones is between them; text is not blurred.
-TEST(Exposures, TheMeanOfEqualOnesIsTheSharpPicture) {
-    FilmSetup sharp = film_of(Style::flat), blurred = sharp;
-    blurred.poses.clear();
-    for (const sim::Pose& pose : sharp.poses) blurred.poses.insert(blurred.poses.end(), 4, pose);
-    blurred.exposures = 4;
-    for (Motion* m : {static_cast<Motion*>(&sharp), static_cast<Motion*>(&blurred)}) m->trace = {}, m->impacts.clear();
-    Film a(sharp), b(blurred);
-    ASSERT_EQ(a.frames(), b.frames());
-    const Image one = drawn(a, 5), mean = drawn(b, 5);
-    int worst = 0;
-    for (std::size_t i = 0; i < one.pixels.size(); ++i)
-        for (int shift = 0; shift < 32; shift += 8)
-            worst = std::max(worst, std::abs(int(one.pixels[i] >> shift & 255) - int(mean.pixels[i] >> shift & 255)));
-    EXPECT_LE(worst, 2);  // blended over the paper at once instead of layer by layer
-}
-
-TEST(Exposures, TheStrobeShowsWhereTheBeamWas) {
-    FilmSetup setup = film_of(Style::flat);
-    const std::vector<sim::Pose> poses = setup.poses;
-    setup.poses.clear();
-    for (const sim::Pose& pose : poses) setup.poses.insert(setup.poses.end(), {pose, poses.front()});
-    setup.exposures = 2;
-    setup.view.strobe = true;
-    Film film(setup);
-    FilmSetup plain = film_of(Style::flat);
-    Film without(plain);
-    EXPECT_EQ(drawn(film, 0), drawn(without, 0));  // no flash before the first
-    EXPECT_NE(drawn(film, 14), drawn(without, 14));
-}
-
 // Labels are placed for the full view; for a near camera those places would be outside the view.
 TEST(Camera, LabelsOfWhatItSeesStandWithinTheView) {
     FilmSetup setup = test::flat_film({.duration = 1}, 960, 540);

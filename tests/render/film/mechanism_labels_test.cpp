@@ -106,14 +106,6 @@ TEST(MechanismLabels, AreClearOfBodiesSeenFromAnySide) {
         }
 }
 
-TEST(MechanismLabels, AreClearOfBodiesWhileTheViewSwings) {
-    FilmSetup setup = film_in(Style::solid);
-    setup.view.swing = 0.4;
-    const Labelled seen = labels_of(setup, 3);
-    EXPECT_EQ(seen.over_beam, 0);
-    EXPECT_GT(seen.labels, 10);
-}
-
 TEST(MechanismLabels, AreClearOfBodiesBeforeANearCamera) {
     for (const Style style : {Style::flat, Style::solid})
         for (const Anchor::Kind follow : {Anchor::Kind::tip, Anchor::Kind::contact})
@@ -521,16 +513,6 @@ TEST(MechanismLegend, IsClearOfManyBeamsInASmallPicture) {
             for (const Box& list : g.legend) EXPECT_FALSE(meets_beam(list, home, g.beam, nullptr)) << int(how) << k;
         }
     }
-}
-
-TEST(MechanismLegend, TheScaleBarIsNotBesideTheLogo) {
-    FilmSetup setup = test::flat_film({.duration = 0.2}, 1280, 720);
-    setup.layout = LayoutNode{};
-    setup.logo = std::make_shared<const Image>(300, 120);
-    const FrameGeometry g = Film(setup).geometry(0);
-    ASSERT_TRUE(g.layout.logo);
-    ASSERT_EQ(g.legend.size(), 1U);
-    EXPECT_FALSE(g.legend[0].overlaps(g.layout.logo->inset(-20 * g.layout.unit)));
 }
 
 // A name that is too long for its panel has two lines before it is cut.

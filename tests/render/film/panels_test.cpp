@@ -33,8 +33,6 @@ PanelSpec strip(ChannelKind kind) { return {.kind = PanelKind::strip, .channels 
 // All kinds of panels at once.
 FilmSetup everything() {
     FilmSetup setup = test::flat_film({.duration = 0.8}, 1920, 1080);
-    setup.view.tip_path = true;
-    setup.view.trace = TraceColor::age;
     setup.chart.channels.push_back({ChannelKind::theta_dot, 0});
     setup.chart.channels.push_back({ChannelKind::energy_kinetic, 0});
     setup.chart.channels.push_back({ChannelKind::energy_potential, 0});
@@ -50,8 +48,7 @@ FilmSetup everything() {
     using enum LayoutNode::Kind;
     setup.layout =
         grid(columns, {grid(rows, {leaf({.kind = PanelKind::mechanism}, 2), leaf({.kind = PanelKind::energy})}, 1.5),
-                       grid(rows, {leaf({.kind = PanelKind::phase}), leaf({.kind = PanelKind::traces}),
-                                   leaf({.kind = PanelKind::close_up})}),
+                       grid(rows, {leaf({.kind = PanelKind::phase}), leaf({.kind = PanelKind::close_up})}),
                        grid(rows, {leaf(strip(ChannelKind::theta)), leaf(by_collision), leaf(moving)})});
     setup.speeds.assign(setup.poses.size(), 1);
     setup.speeds[20] = 0.02, setup.speeds[21] = 0;
@@ -143,47 +140,25 @@ TEST(Panels, ComparisonsStandStillWhileTimeDoes) {
 
 // ---- layers, captions, peaks --------------------------------------------------------------------
 
-TEST(Layers, LieOverEachOtherAsIfTheyWereOne) {
-    FilmSetup setup = everything();
+// The path of the tip has an outline like other lines.
+TEST(Transparent, ThePathOfTheTipHasAnOutline) {
+    FilmSetup setup = test::flat_film({.duration = 0.5}, 1280, 720);
+    setup.layout = LayoutNode{};
     setup.view.transparent = true;
-    const auto layer = [&](LayerOf which) {
-        setup.view.layer = which;
-        Film film(setup);
-        return drawn(film, 30);
-    };
-    const Image all = layer(LayerOf::all), mechanism = layer(LayerOf::mechanism), charts = layer(LayerOf::charts);
-    long of_one = 0, of_other = 0;
-    for (std::size_t i = 0; i < all.pixels.size(); ++i) {
-        ASSERT_TRUE(mechanism.pixels[i] == 0 || charts.pixels[i] == 0) << i;
-        ASSERT_EQ(all.pixels[i], mechanism.pixels[i] | charts.pixels[i]) << i;
-        of_one += mechanism.pixels[i] != 0, of_other += charts.pixels[i] != 0;
-    }
-    EXPECT_GT(of_one, 1000);
-    EXPECT_GT(of_other, 1000);
-}
-
-// The path of the tip has an outline like other lines, its oldest part included.
-TEST(Layers, ThePathOfTheTipHasAnOutline) {
-    for (const bool whole : {false, true}) {
-        FilmSetup setup = test::flat_film({.duration = 0.5}, 1280, 720);
-        setup.layout = LayoutNode{};
-        setup.view.tip_path = whole;
-        setup.view.transparent = true;
-        Film film(setup);
-        const Image image = drawn(film, 20);
-        const FrameGeometry g = film.geometry(10);
-        const std::size_t end = g.beam.line.size() - 1;
-        const Vec2 tip = g.camera.to_pixels((g.beam.face(end) + g.beam.back(end)) * 0.5);
-        const Color paper = palette(Theme::light).paper;
-        int bright = 0;  // pixels near to the paper's colour beside the line
-        for (int y = -4; y <= 4; ++y)
-            for (int x = -4; x <= 4; ++x) {
-                const std::uint32_t p =
-                    image.pixels[std::size_t(tip.y + y) * std::size_t(image.width) + std::size_t(tip.x + x)];
-                bright += double(p >> 16 & 255) > 0.5 * 255 * paper.r && (p >> 24) > 128;
-            }
-        EXPECT_GT(bright, 8) << whole;
-    }
+    Film film(setup);
+    const Image image = drawn(film, 20);
+    const FrameGeometry g = film.geometry(10);
+    const std::size_t end = g.beam.line.size() - 1;
+    const Vec2 tip = g.camera.to_pixels((g.beam.face(end) + g.beam.back(end)) * 0.5);
+    const Color paper = palette(Theme::light).paper;
+    int bright = 0;  // pixels near to the paper's colour beside the line
+    for (int y = -4; y <= 4; ++y)
+        for (int x = -4; x <= 4; ++x) {
+            const std::uint32_t p =
+                image.pixels[std::size_t(tip.y + y) * std::size_t(image.width) + std::size_t(tip.x + x)];
+            bright += double(p >> 16 & 255) > 0.5 * 255 * paper.r && (p >> 24) > 128;
+        }
+    EXPECT_GT(bright, 8);
 }
 
 // Of a millisecond.
@@ -444,28 +419,6 @@ TEST(Captions, LinesToTheContactPassTheDisc) {
 
 // ---- visible parts -------------------------------------------------------------------------------
 
-TEST(Plates, OwnColoursReplaceTheThemesAndLeaveTheOthers) {
-    const Palette& theme = palette(Theme::light);
-    const Palette own = recolored(theme, {.motion = 0x123456, .contact = 0x654321});
-    EXPECT_EQ(own.motion, rgb(0x123456));
-    EXPECT_EQ(own.moment.front(), rgb(0x123456));
-    EXPECT_EQ(own.moment.back(), rgb(0x654321));
-    EXPECT_EQ(own.force[1], rgb(0x654321));
-    EXPECT_EQ(own.ink, theme.ink);
-    EXPECT_EQ(own.steel, theme.steel);
-    EXPECT_EQ(recolored(theme, {}).force, theme.force);
-    const auto pixels_of = [](const Image& image, std::uint32_t color) {
-        return std::ranges::count(image.pixels, 0xFF000000U | color);
-    };
-    FilmSetup setup = everything();
-    setup.layout = leaf(strip(ChannelKind::theta));
-    Film as_it_is(setup);
-    setup.view.colors.motion = 0x8844AA;
-    Film film(setup);
-    EXPECT_EQ(pixels_of(drawn(as_it_is, 47), 0x8844AA), 0);
-    EXPECT_GT(pixels_of(drawn(film, 47), 0x8844AA), 50);
-}
-
 TEST(Plates, OnlyAPictureWithRoomStatesTheFactor) {
     const auto states = [](int width, int height) {
         return Film(test::flat_film({.duration = 0.1}, width, height)).states_exaggeration();
@@ -488,28 +441,6 @@ TEST(Plates, ThePaperOfAnyColourKeepsTextReadable) {
     const Palette same = on_paper(light, light.paper);
     EXPECT_EQ(same.ink, light.ink);
     EXPECT_NEAR(same.grid.r, light.grid.r, 0.02);
-}
-
-TEST(Plates, ALogoStandsBesideTheClockClearOfWords) {
-    Image picture(80, 40);
-    picture.pixels.assign(picture.pixels.size(), 0xFFFF00FFU);
-    for (const auto& [width, height] : {std::pair{1920, 1080}, {1080, 1920}, {320, 180}})
-        for (const bool clean : {false, true}) {
-            FilmSetup setup = everything();
-            setup.width = width, setup.height = height;
-            setup.layout.reset();
-            if (clean) setup.view.show = {false, false, false, false, false, false};
-            setup.logo = std::make_shared<const Image>(picture);
-            Film film(setup);
-            const FrameGeometry g = film.geometry(20);
-            ASSERT_TRUE(g.layout.logo) << width;
-            EXPECT_NEAR(g.layout.logo->w, 2 * g.layout.logo->h, 1e-6);
-            for (const Box& text : g.texts) EXPECT_FALSE(text.overlaps(*g.layout.logo)) << width << ", " << text.x;
-            for (const PanelSlot& panel : g.layout.panels) EXPECT_FALSE(panel.box.overlaps(*g.layout.logo)) << width;
-            const Image image = drawn(film, 20);
-            const Vec2 middle = g.layout.logo->centre();
-            EXPECT_EQ(image.pixels[std::size_t(middle.y) * std::size_t(width) + std::size_t(middle.x)], 0xFFFF00FFU);
-        }
 }
 
 // ---- intervals that are not reproducible -------------------------------------------------------
@@ -536,6 +467,20 @@ TEST(Unreliable, PaleCurvesHaveTheSamePixelsInAnyOrder) {
     FilmSetup setup = everything();
     setup.unreliable = {{0.1, 0.25}, {0.4, std::numeric_limits<double>::infinity()}};
     same_in_any_order(setup);
+}
+
+// All texts of the user choose the fonts, also the names of measured data.
+TEST(Films, DataWithAChineseNameShowIt) {
+    FilmSetup setup = with_data();
+    ASSERT_FALSE(setup.data.empty());
+    const auto widest_text = [&](const std::string& label) {
+        setup.data.front().label = label;
+        const FilmContext context(std::make_shared<const FilmSetup>(setup));
+        Image scratch(1, 1);
+        Canvas canvas(scratch, *context.fonts);
+        return canvas.measure(context.data_labels.front(), {.size = 20}).w;
+    };
+    EXPECT_GT(widest_text("测量数据"), 60);
 }
 
 TEST(Films, InChineseHaveNoLetterBoxes) {
@@ -609,7 +554,6 @@ TEST(MovingParts, TransparentTinyAndOddPicturesAreDrawnAsIfAllWere) {
         FilmSetup setup = everything();
         setup.width = width, setup.height = height;
         setup.view.transparent = width % 2 == 1;
-        setup.view.tip_path = width != 320;
         as_if_all_were_drawn(Film(std::move(setup)), {0, 1, 2, 20, 21, 22, 3, 47}, 1.01);
     }
 }
@@ -908,23 +852,6 @@ double highest_past(Film& film, int frame) {
                 return (plot.bottom() - y) / plot.h;
         }
     return 0;
-}
-
-// A heading that has no room is shorter, not cut.
-TEST(Traces, HaveAShortHeadingInANarrowColumn) {
-    const auto heading = [](double other) {
-        FilmSetup setup = test::flat_film({.duration = 0.3}, 960, 540);
-        setup.layout = grid(LayoutNode::Kind::columns,
-                            {leaf({.kind = PanelKind::traces}), leaf(strip(ChannelKind::theta), other)});
-        Film film(std::move(setup));
-        const FrameGeometry g = film.geometry(2);
-        const Box box = g.layout.first(PanelKind::traces)->box;
-        const auto text = std::ranges::find_if(
-            g.texts, [&](const Box& each) { return box.contains(each) && each.y < box.y + 26 * g.layout.unit; });
-        return text == g.texts.end() ? 0.0 : text->w;
-    };
-    EXPECT_GT(heading(4), 30);
-    EXPECT_LT(heading(4), 0.6 * heading(1));
 }
 
 // Before the first touch the axis of force has neither numbers nor levels.

@@ -418,29 +418,26 @@ TEST(Figure, ADarkSlideHasThePaperAndTheInkOfDarkFilms) {
     EXPECT_EQ(sheet.image().pixels.front(), 0xFF000000 | byte(paper.r) << 16 | byte(paper.g) << 8 | byte(paper.b));
 }
 
-TEST(Figure, EpsHasItsSizeAndNoClock) {
-    Document document;
-    document.title = "θ(t)\n%%EOF", document.creator = "test", document.created = 1000000000;
-    const std::string eps = bytes_of(plot({0, 1}, {0, 1}), Medium::eps, document);
-    EXPECT_THAT(eps, ::testing::StartsWith("%!PS-Adobe-3.0 EPSF-3.0"));
-    EXPECT_THAT(eps, HasSubstr("%%CreationDate: 2001-09-09T01:46:40Z\n"));
-    EXPECT_THAT(eps, HasSubstr("%%BoundingBox: 0 0 "));
-    EXPECT_THAT(eps, HasSubstr("\n%%Title:   (t) %%EOF\n"));
-    EXPECT_EQ(eps, bytes_of(plot({0, 1}, {0, 1}), Medium::eps, document));
-}
-
-TEST(Figure, SvgHasTextOnRequest) {
-    const Figure figure = plot({0, 1}, {0, 1});
-    Document editable;
-    editable.editable = true;
-    const std::string outlines = bytes_of(figure, Medium::svg, {}), text = bytes_of(figure, Medium::svg, editable);
-    EXPECT_EQ(outlines.find("<text"), std::string::npos);
-    EXPECT_THAT(outlines, HasSubstr("<use xlink:href=\"#glyph"));
-    EXPECT_EQ(text.find("<use xlink:href=\"#glyph"), std::string::npos);
-    EXPECT_THAT(text, HasSubstr(">θ</text>"));
-    EXPECT_THAT(text, HasSubstr(" rotate(-90.000)"));
-    EXPECT_THAT(text, HasSubstr("font-style=\"italic\""));
-    EXPECT_THAT(text, ::testing::EndsWith("</text>\n</svg>\n"));
+// Points without a line, such as measured data, are beneath the curves, and smaller where they are many.
+TEST(Figure, ManyPointsDoNotHideTheCurve) {
+    const auto pixels_of = [](const Image& image, std::uint32_t color) {
+        return std::ranges::count(image.pixels, 0xFF000000U | color);
+    };
+    std::vector<double> x, y;
+    for (int i = 0; i < 251; ++i) x.push_back(i / 250.0), y.push_back(std::sin(3 * x.back()));
+    Figure figure = plot(x, y);
+    figure.panels[0].legend = Legend::none;
+    figure.panels[0].series[0].color = rgb(0x0000FF);
+    const long alone = pixels_of(draw_png(figure, "elsevier", 300).image, 0x0000FF);
+    Series data{.x = x, .y = y, .look = 1, .line = false, .every_point = true, .color = rgb(0xFF0000)};
+    for (const bool first : {true, false}) {
+        std::vector<Series>& all = figure.panels[0].series;
+        all.insert(first ? all.begin() : all.end(), data);
+        const Image both = draw_png(figure, "elsevier", 300).image;
+        EXPECT_EQ(pixels_of(both, 0x0000FF), alone) << first;
+        EXPECT_GT(pixels_of(both, 0xFF0000), alone / 2) << first;
+        all.erase(first ? all.begin() : all.end() - 1);
+    }
 }
 
 TEST(Figure, LongSeriesMakeSmallFiles) {

@@ -72,10 +72,10 @@ TEST(Info, FilesAreTheSameBytesInEveryFolder) {
         shell(folder,
               R"(mkdir one two; for d in one "$PWD/two"; do small="$BEAMCAM render -q s.json --style flat --size 96x64"
         $small --at 0.05 -o "$d/a.png" && $small --to 0.05 -o "$d/a.mp4" && $small --to 0.05 -o "$d/a.gif" &&
-        $BEAMCAM render -q s.json -o "$d/a.html" && $BEAMCAM render -q s.json -o "$d/a.glb" || exit; done)")
+        $BEAMCAM render -q s.json -o "$d/a.html" || exit; done)")
             .code,
         0);
-    for (const std::string ending : {"png", "mp4", "gif", "html", "glb"}) {
+    for (const std::string ending : {"png", "mp4", "gif", "html"}) {
         const std::string one = testing::slurp(folder / ("one/a." + ending));
         EXPECT_EQ(one, testing::slurp(folder / ("two/a." + ending))) << ending;
         EXPECT_THAT(one, Not(HasSubstr("one/"))) << ending;
@@ -110,15 +110,15 @@ TEST(Info, AStillNamedByAnAbsolutePathGivesASceneThatCanBeRun) {
               0);
 }
 
-TEST(Info, PagesModelsAndTheFilesBesideFiguresAreKnownByTheManifest) {
+TEST(Info, PagesFiguresAndTheFilesBesideThemAreKnownByTheManifest) {
     const Folder folder;
     folder.write("s.json", R"({"time": {"end": 0.3}})");
     ASSERT_EQ(shell(folder,
-                    "for e in html glb; do $BEAMCAM render -q s.json -o a.$e || exit; done; "
+                    "$BEAMCAM render -q s.json -o a.html && "
                     "$BEAMCAM figure -q s.json --channels theta -o f.svg --data f.csv --caption f.txt")
                   .code,
               0);
-    for (const auto& [file, kind] : {std::pair{"a.html", "page"}, std::pair{"a.glb", "model"},
+    for (const auto& [file, kind] : {std::pair{"a.html", "page"}, std::pair{"f.svg", "SVG figure"},
                                      std::pair{"f.csv", "table with texts"}, std::pair{"f.txt", "caption"}}) {
         const Finished info = shell(folder, std::string("$BEAMCAM info ") + file);
         EXPECT_THAT(info.out, HasSubstr(fmt::format("{}: {}\n", file, kind))) << info.err;
@@ -143,23 +143,6 @@ TEST(Info, ForeignAndDamagedFilesAreDistinguished) {
     folder.write("cut.mp4", film.substr(0, 40));
     for (const char* file : {"cut.mp4", "absent.png", "."})
         EXPECT_EQ(shell(folder, std::string("$BEAMCAM info ") + file).code, 6) << file;
-}
-
-TEST(Info, ReadsFiguresOfBothVectorFormats) {
-    const Folder folder;
-    folder.write("a.svg",
-                 "<?xml version=\"1.0\"?>\n<svg>\n<title>T</title>\n<desc>D</desc>\n<metadata>\n<creator>beamcam "
-                 "0.1.0</creator>\n"
-                 "<scene>{&quot;title&quot;: &quot;a &amp;lt; b&quot;}</scene>\n</metadata></svg>");
-    EXPECT_THAT(shell(folder, "$BEAMCAM info a.svg --scene").out, HasSubstr("\"title\": \"a &lt; b\""));
-    folder.write("a.pdf",
-                 "%PDF-1.5\n1 0 obj << /Title <FEFF03C9> /Creator (beamcam 0.1.0) /Keywords ({\"gravity\": \\(1\\)}) "
-                 ">>\n%%EOF\n");
-    const Finished pdf = shell(folder, "$BEAMCAM info a.pdf");
-    EXPECT_THAT(pdf.out, HasSubstr("title          ω"));
-    EXPECT_THAT(pdf.out, HasSubstr("beamcam 0.1.0"));
-    folder.write("a.pdf", "%PDF-1.5\n1 0 obj");
-    EXPECT_EQ(shell(folder, "$BEAMCAM info a.pdf").code, 6);
 }
 
 TEST(GlDoctor, NamesThePackageOfWhatIsMissing) {

@@ -70,10 +70,9 @@ TEST(Overviews, AStrobeWritesItsInstantsExactly) {
 TEST(Overviews, AStillOfLinesIsAStrobeOfOneInstant) {
     const Folder folder;
     folder.write("s.json", R"({"time": {"end": 0.4}})");
-    for (const char* file : {"a.pdf", "a.eps", "a.svg"})
+    for (const char* file : {"a.pdf", "a.svg"})
         ASSERT_EQ(shell(folder, fmt::format("$BEAMCAM render s.json --at impact:1 -o {}", file)).code, 0) << file;
     EXPECT_THAT(testing::slurp((folder / "a.pdf").string()), StartsWith("%PDF"));
-    EXPECT_THAT(testing::slurp((folder / "a.eps").string()), StartsWith("%!PS"));
     ASSERT_EQ(shell(folder, "$BEAMCAM figure s.json strobe --at impact:1 -o b.svg").code, 0);
     EXPECT_EQ(testing::slurp(folder / "a.svg"), testing::slurp(folder / "b.svg"));
     ASSERT_EQ(shell(folder, "$BEAMCAM figure s.json --at impact:1 -o c.svg").code, 0);  // needs no name
@@ -382,26 +381,6 @@ TEST(Overviews, KeysOfOtherFiguresAreRejectedWithTheNamesOfThese) {
             else
                 EXPECT_THAT(report, AllOf(rejected, HasSubstr(list_of_figures_with(key)))) << type.name;
         }
-}
-
-// The same pixels as of PNG, at 600 dpi by default.
-TEST(Exports, TiffHasThePixelsOfPng) {
-    const Folder folder;
-    folder.write("s.json", R"({"time": {"end": 0.1}})");
-    const Finished made = shell(folder,
-                                "$BEAMCAM figure s.json angle -o a.tif --column ieee -q; "
-                                "$BEAMCAM figure s.json angle -o a.png --column ieee --dpi 600 -q; "
-                                "ffmpeg -v error -i a.tif -pix_fmt rgb24 b.png && $BEAMCAM diff a.png b.png");
-    EXPECT_EQ(made.code, 0) << made.err << made.out;
-    EXPECT_THAT(made.out, HasSubstr("identical"));
-    const Finished facts = shell(folder, "$BEAMCAM info a.tif");
-    EXPECT_THAT(facts.out, HasSubstr("TIFF figure"));
-    const std::string bytes = testing::slurp(folder / "a.tif");
-    const std::string ratio("\xC0\x27\x09\x00\xE8\x03\x00\x00", 8);  // 600 000 / 1000 dots an inch
-    EXPECT_NE(bytes.find(ratio), std::string::npos);
-    EXPECT_EQ(shell(folder, "$BEAMCAM figure s.json angle -o a.eps -q").code, 0);
-    EXPECT_EQ(shell(folder, "$BEAMCAM figure s.json angle -o a.svg --text editable -q").code, 0);
-    EXPECT_THAT(testing::slurp(folder / "a.svg"), HasSubstr("rad</text>"));
 }
 
 TEST(Exports, ShapesEndWithTheTipsDeflection) {

@@ -136,61 +136,6 @@ TEST(Diagram, WithoutSectionsInventsNoNumbers) {
     EXPECT_EQ(figure.panels[0].title, "No samples to draw; motions: following, over-the-top");
     EXPECT_THAT(missing_data(figure), ElementsAre("no points"));
     EXPECT_THAT(missing_data(diagram("bifurcation", speeds, data(speeds, {periodic}), "v_n_before")), SizeIs(0));
-    const output::SweepData none = data(speeds, {over_the_top});
-    const GrowingDiagram growing({&speeds.scene(), &none}, {}, {0, 1});
-    EXPECT_EQ(growing.until(0, 1).panels[0].title, "No samples to draw; motions: over-the-top");
-    EXPECT_EQ(growing.until(0, 1).panels[0].legend, render::figure::Legend::none);
-}
-
-TEST(GrowingDiagram, ShowsMoreAndMoreOfOneAndTheSameDiagram) {
-    const SweepGrid speeds = grid(R"({"over": [{"key": "cam.speed", "values": [1, 3, 2]}],
-                                      "seed": ["carry-up", "carry-down"]})");
-    using enum AttractorClass;
-    const output::SweepData points = data(speeds, {periodic});
-    const Swept swept{&speeds.scene(), &points};
-    // Up through 1, 2, 3 and down again; points are numbered by value and start.
-    const GrowingDiagram diagram(swept, {}, {0, 5, 2, 3, 1, 4});
-    const auto shown = [&](std::size_t last) {
-        const auto figure = diagram.until(last, 2.5);
-        EXPECT_EQ(figure.panels[0].rules.back().at, 2.5);
-        EXPECT_THAT(figure.panels[0].clouds, SizeIs(3));
-        const auto& colors = figure.panels[1].cells[0].colors;
-        const auto cells = std::ranges::count_if(colors, [](const render::Color& c) { return c.a > 0; });
-        return std::tuple(figure.panels[0].clouds[0].shown, figure.panels[0].clouds[1].shown, cells);
-    };
-    EXPECT_EQ(shown(0), std::tuple(2u, 0u, 1));
-    EXPECT_EQ(shown(2), std::tuple(6u, 0u, 3));
-    EXPECT_EQ(shown(4), std::tuple(6u, 4u, 5));
-    EXPECT_EQ(shown(5), std::tuple(6u, 6u, 6));
-    // Whatever is shown, the points are all there, so that limits and dots stay.
-    EXPECT_EQ(diagram.until(0, 1).panels[0].clouds[0].x, (std::vector<double>{1, 1, 2, 2, 3, 3}));
-    EXPECT_EQ(diagram.until(0, 1).panels[0].clouds[1].x, (std::vector<double>{3, 3, 2, 2, 1, 1}));
-}
-
-TEST(GrowingDiagram, NamesAPointByTheSymbolAndUnitOfItsAxis) {
-    using enum AttractorClass;
-    const auto text = [&](const std::string& over, std::uint64_t point, Lang lang = Lang::en) {
-        const SweepGrid keys = grid(R"({"over": [{)" + over + "}]}");
-        const output::SweepData points = data(keys, {periodic});
-        const Swept swept{&keys.scene(), &points};
-        return point_text(swept, point, value_digits(swept, points.axes[0].values, lang), lang);
-    };
-    const std::string periodic_text = ": period 1 turn, 2 impacts";
-    const std::string speeds = R"("key": "cam.speed", "values": [1, 2.25, 3])";
-    EXPECT_EQ(text(speeds, 2), "$ω$ = 3.00\u00A0rad/s" + periodic_text);
-    EXPECT_EQ(text(speeds, 2, Lang::zh), "$ω$ = 3.00\u00A0rad/s：周期 1 圈，碰撞 2 次");
-    EXPECT_EQ(text(R"("key": "cam.eccentricity", "from": 0.001, "to": 0.003, "count": 11)", 6),
-              "$e$ = 2.2\u00A0mm" + periodic_text);
-    EXPECT_EQ(text(R"("key": "contact.restitution", "from": 0.3, "to": 0.6, "count": 11)", 6),
-              "$c_{\\r{r}}$ = 0.48" + periodic_text);
-    EXPECT_EQ(text(R"("key": "initial.angular_velocity", "values": [-1.5, 2])", 0),
-              "$\\dot{θ}_{0}$ = −1.5\u00A0rad/s" + periodic_text);
-    EXPECT_THAT(text(R"("key": "contact.stiffness", "values": [1e6, 2e6])", 1), StartsWith("$K$ = 2×10⁶\u00A0N"));
-    // Of a logarithmic axis as many digits as distinguish the values.
-    const std::string decades = R"("key": "cam.speed", "spacing": "log", "from": 0.01, "to": 100, "count": )";
-    EXPECT_THAT(text(decades + "7", 5), StartsWith("$ω$ = 21.5\u00A0rad/s"));
-    EXPECT_THAT(text(decades + "7", 0), StartsWith("$ω$ = 0.01\u00A0rad/s"));
-    EXPECT_THAT(text(decades + "4001", 3333), StartsWith("$ω$ = 21.53\u00A0rad/s"));
 }
 
 // Diagrams have the units in which the scene gives angles and speeds.
@@ -206,38 +151,6 @@ TEST(Diagram, HasTheUnitsOfTheScene) {
     EXPECT_NEAR(two.panels[0].cells[0].y.back(), 2.5, 1e-9);
     const auto plane = diagram("impact-map", speeds, data(speeds, {AttractorClass::periodic}), "");
     EXPECT_THAT(plane.panels[0].clouds[1].label, HasSubstr("400 rpm"));
-}
-
-// In films too, and so have the texts of points.
-TEST(GrowingDiagram, HasTheUnitsOfTheScene) {
-    const auto named = [](const std::string& over, const std::string& label, const std::string& value) {
-        const SweepGrid keys = grid(R"({"over": [{)" + over + "}]}");
-        const output::SweepData points = data(keys, {AttractorClass::periodic});
-        const Swept swept{&keys.scene(), &points};
-        const std::vector<double>& values = points.axes[0].values;
-        const auto figure = GrowingDiagram(swept, {}, {0, 1}).until(1, values[1]);
-        EXPECT_EQ(figure.panels[1].x.label, label);
-        EXPECT_NEAR(figure.panels[0].rules.back().at, figure.panels[0].clouds[0].x.back(), 1e-9);
-        EXPECT_NEAR(*figure.panels[1].x.to, figure.panels[1].cells[0].x.back(), 1e-9);
-        EXPECT_THAT(point_text(swept, 1, value_digits(swept, values, Lang::en), Lang::en), StartsWith(value));
-        return figure.panels[0].clouds[0].x.back();
-    };
-    EXPECT_NEAR(named(R"("key": "cam.speed", "values": ["300 rpm", "400 rpm"])", "$ω$ / rpm", "$ω$ = 400\u00A0rpm:"),
-                400, 1e-9);
-    EXPECT_NEAR(named(R"("key": "initial.angle", "from": "30 deg", "to": "45 deg", "count": 2)", "$θ_{0}$ / °",
-                      "$θ_{0}$ = 45°:"),
-                45, 1e-9);
-    EXPECT_NEAR(named(R"("key": "cam.eccentricity", "values": ["1 mm", "2 mm"])", "$e$ / mm", "$e$ = 2\u00A0mm:"), 2,
-                1e-9);
-}
-
-TEST(GrowingDiagram, HasTheFewestDecimalsThatDistinguishValues) {
-    EXPECT_EQ(decimals_of({30, 35, 40}), 0);
-    EXPECT_EQ(decimals_of({0.3, 0.33, 0.36}), 2);
-    EXPECT_EQ(decimals_of({44.0 + 29 / 30.0, 45, 45 + 1 / 30.0}), 3);
-    EXPECT_EQ(decimals_of({45, 45}), 0);
-    EXPECT_EQ(decimals_of({1e6, 2e6}), std::nullopt);
-    EXPECT_EQ(decimals_of({1, 1 + 1e-9}), std::nullopt);
 }
 
 TEST(Diagram, OfBranchesHasTheImpactsOfASweepBeneath) {

@@ -234,10 +234,9 @@ bool shows(const Scene& scene, std::size_t output, const Schema::Leaf& leaf) {
     if (place.starts_with("/outputs/")) return place.starts_with(fmt::format("/outputs/{}/", output));
     const Output& any = scene.outputs[output];
     const auto* diagram = std::get_if<FigureOutput>(&any);
-    const bool sweep_film = std::holds_alternative<SweepFilmOutput>(any);
-    const bool data = !diagram && !sweep_film && !std::holds_alternative<PictureOutput>(any);
+    const bool data = !diagram && !std::holds_alternative<PictureOutput>(any);
     const bool of_sweep =
-        sweep_film || std::holds_alternative<SweepOutput>(any) || (diagram && diagram->figure == "bifurcation");
+        std::holds_alternative<SweepOutput>(any) || (diagram && diagram->figure == "bifurcation");
     if (place.starts_with("/data/"))
         return std::holds_alternative<FigureOutput>(any) || std::holds_alternative<SummaryOutput>(any) ||
                std::holds_alternative<PictureOutput>(any);

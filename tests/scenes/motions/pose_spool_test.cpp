@@ -99,7 +99,6 @@ TEST(PoseSpool, AFilmOfThemHasThePixelsOfOneOfHeldPoses) {
     setup.problem = problem;
     setup.width = 640, setup.height = 360;
     setup.view.style = render::Style::flat;
-    setup.view.tip_path = true;
     render::FilmSetup from_file = setup;
     setup.poses = both.held.poses[0];
     from_file.stored = both.spooled;

@@ -7,7 +7,6 @@
 #include <filesystem>
 
 #include "render/mechanism/exaggeration.hpp"
-#include "scenes/outputs/film_track.hpp"
 #include "scenes/plan/plan.hpp"
 #include "scenes/scene/film_times.hpp"
 #include "sim/run/simulate.hpp"
@@ -100,7 +99,7 @@ TEST(Films, SlowMotionFilesDoNotDependOnThreads) {
     SKIP_UNDER_SANITIZERS();
     const Folder folder;
     folder.write("s.json", R"({"time": {"end": 0.3}, "outputs": [{"type": "frames", "file": "f-###.png",
-        "size": [960, 540], "fps": 12, "from": 0.27, "view": {"style": "flat", "tip_path": "whole"},
+        "size": [960, 540], "fps": 12, "from": 0.27, "view": {"style": "flat"},
         "speed": {"around": "impacts", "factor": 0.02, "ease": "5 ms"}, "events": [{"at": "impact:1", "freeze": 0.5, "text": "touch"}],
         "layout": {"columns": ["mechanism", {"rows": [{"panel": "contact_force", "window": "collision"}, "close-up"]}]}}]})");
     std::string listing;
@@ -174,6 +173,28 @@ TEST(Films, ATimeAfterTheEndOfTheSceneIsAWarning) {
                                R"({"type": "figure", "figure": "strobe", "at": 0.2})"})
         EXPECT_THAT(warnings_of(output), HasSubstr(late)) << output;
     EXPECT_EQ(warnings_of(R"({"type": "still", "at": 0.1}, {"type": "video", "to": 0.1})"), "");
+}
+
+// "last" is the end, wherever an instant is: a part that begins there is empty.
+TEST(Films, APartThatBeginsAtTheEndIsRejected) {
+    for (const char* output :
+         {R"({"type": "video", "from": "last"})", R"({"type": "frames", "from": "last"})",
+          R"({"type": "video", "from": "last", "speed": 0.1})", R"({"type": "video", "from": "last", "to": "last"})",
+          R"({"type": "page", "from": "last"})", R"({"type": "video", "from": "last", "to": 0.05})"}) {
+        const Reading reading = testing::read(R"({"time": {"end": 0.1}, "outputs": [)" + std::string(output) + "]}");
+        EXPECT_FALSE(reading.scene.has_value()) << output;
+        EXPECT_THAT(reading.report(), HasSubstr("0.1 s")) << output;
+    }
+    const Reading figure = testing::read(
+        R"({"time": {"end": 0.1}, "outputs": [{"type": "figure", "figure": "kymograph", "from": "last"}]})");
+    EXPECT_FALSE(figure.scene.has_value());
+    const Reading after = testing::read(R"({"time": {"end": 0.1}, "outputs": [{"type": "video", "from": "last", "to": 0.2}]})");
+    ASSERT_TRUE(after.scene.has_value());
+    EXPECT_EQ(std::get<PictureOutput>(after.scene->outputs[0]).span.from, 0.1);
+    const Reading strobe = testing::read(
+        R"({"time": {"end": 0.1}, "outputs": [{"type": "figure", "figure": "strobe", "from": "last", "to": "last"}]})");
+    ASSERT_TRUE(strobe.scene.has_value()) << strobe.report();
+    EXPECT_EQ(std::get<FigureOutput>(strobe.scene->outputs[0]).series.from, 0.1);
 }
 
 TEST(Films, ATimeAfterTheLatestPossibleEndIsRejected) {
@@ -355,13 +376,6 @@ TEST(Posters, BelongToWhatIsFinished) {
     EXPECT_THAT(refused.out, ::testing::Not(HasSubstr("f.mkv")));
 }
 
-TEST(Posters, OfPartsAreMadeByThePartThatHasThem) {
-    const Folder folder;
-    folder.write("s.json", kWithPoster);
-    EXPECT_EQ(shell(folder, "$BEAMCAM run s.json --shard 1/2 && ls *.png").out, "");
-    EXPECT_EQ(shell(folder, "$BEAMCAM run s.json --shard 2/2 && ls *.png").out, "f.png\n");
-}
-
 TEST(Posters, OfAFilmThatWasShortenedAreItsLastFrame) {
     const Folder folder;
     folder.write("s.json", R"({"time": {"end": 0.4}, "outputs": [
@@ -387,16 +401,14 @@ TEST(Render, RejectsOptionsThatWouldDoNothing) {
     folder.write("s.json", "{}");
     for (const auto& [arguments, words] : std::initializer_list<std::pair<const char*, const char*>>{
              {"--at 0.3 -o a.png --fps 10",
-              "--fps belongs to outputs of type video, frames, page, model, sweep-film; this one is of type still"},
+              "--fps belongs to outputs of type video, frames, page; this one is of type still"},
              {"--at 0.3 -o a.png --duration '4 s'",
-              "--duration belongs to outputs of type video, frames, sweep-film; this one is of type still"},
-             {"--at 0.3 -o a.png --frames 1:2", "--frames belongs to films and sequences; -o a.png is none"},
+              "--duration belongs to outputs of type video, frames; this one is of type still"},
              {"--at 0.3 -o a.pdf --poster 0.1",
               "--poster belongs to outputs of type video; this one is of type figure"},
              {"--at 0.3 -o a.pdf --size 64x64",
-              "--size belongs to outputs of type video, frames, still, sweep-film; this one is of type figure"},
-             {"-o a-##.png --poster 0.1", "--poster belongs to outputs of type video; this one is of type frames"},
-             {"-o a.html --shard 1/2", "--shard belongs to films and sequences; -o a.html is none"}}) {
+              "--size belongs to outputs of type video, frames, still; this one is of type figure"},
+             {"-o a-##.png --poster 0.1", "--poster belongs to outputs of type video; this one is of type frames"}}) {
         const Finished done = shell(folder, std::string("$BEAMCAM render s.json ") + arguments);
         EXPECT_EQ(done.code, 2) << arguments;
         EXPECT_THAT(done.err, HasSubstr(words)) << arguments;
@@ -504,96 +516,6 @@ TEST(Films, HoldTheirLastPictureAtTheVeryEnd) {
     EXPECT_EQ(times_in(R"("poster": "last")").poster, 29);
 }
 
-// Two impacts within a short time of the film are one chapter; a caption is a subtitle, escaped where the format asks.
-TEST(Films, TellOfImpactsInSubtitlesAndChapters) {
-    render::FilmSetup film;
-    film.fps = 10;
-    for (int k = 0; k < 40; ++k) film.poses.emplace_back().t = k / 10.0;
-    for (const double t : {1.0, 1.05, 3.0}) film.impacts.emplace_back().t_start = t;
-    film.impacts[1].force_peak = 250;
-    film.callouts = {{20, 24, "a < b --> c"}};
-    const FilmTrack track = film_track(film, Lang::en);
-    ASSERT_EQ(track.chapters.size(), 3u);
-    EXPECT_EQ(track.chapters[0].title, "Start");
-    EXPECT_EQ(track.chapters[1].title, "Impacts 1–2");
-    EXPECT_EQ(track.chapters[1].from, 1);
-    EXPECT_EQ(track.chapters[1].to, 3);
-    EXPECT_EQ(track.chapters[2].title, "Impact 3");
-    EXPECT_EQ(subtitle_file(track.subtitles, Subtitles::vtt),
-              "WEBVTT\n\n00:00:01.000 --> 00:00:03.000\nImpacts 1–2 · t = 1.0000 … 1.0500 s · up to 250\u00A0N\n\n"
-              "00:00:02.000 --> 00:00:02.500\na &lt; b --&gt; c\n\n"
-              "00:00:03.000 --> 00:00:04.000\nImpact 3 · t = 3.0000 s\n\n");
-    EXPECT_THAT(subtitle_file(film_track(film, Lang::zh).subtitles, Subtitles::srt),
-                ::testing::StartsWith("1\n00:00:01,000 --> 00:00:03,000\n第 1–2 次冲击"));
-}
-
-// A subtitle tells of impacts in a short time, or of dense ones until they end; it does not call them chatter, which is
-// known only of bounces that end in sustained contact.
-TEST(FilmTrack, TellsBouncesApartUnlessTheyAreDense) {
-    render::FilmSetup film;
-    film.fps = 50;
-    for (int k = 0; k < 500; ++k) film.poses.emplace_back().t = k / 50.0;
-    const auto hit = [&](double t) { film.impacts.emplace_back().t_start = t; };
-    for (const double t : {1.0, 1.3, 1.45, 1.5, 1.9, 2.4}) hit(t);
-    for (int k = 0; k <= 80; ++k) hit(4 + 0.04 * k);  // until 7.2
-    hit(7.6);
-    const auto names = [&](Lang lang) {
-        std::vector<std::string> out;
-        for (const output::Chapter& each : film_track(film, lang).chapters) out.push_back(each.title);
-        return out;
-    };
-    EXPECT_THAT(names(Lang::en), ::testing::ElementsAre("Start", "Impacts 1–2", "Impacts 3–4", "Impact 5", "Impact 6",
-                                                        "Impacts 7–87", "Impact 88"));
-    EXPECT_EQ(names(Lang::zh)[5], "第 7–87 次冲击");
-    const std::vector<Cue> cues = film_track(film, Lang::en).subtitles;
-    EXPECT_EQ(cues[4].from, 4);
-    EXPECT_NEAR(cues[4].to, 7.2, 0.02);
-    EXPECT_EQ(cues[4].text, "Impacts 7–87 · t = 4.0000 … 7.2000 s");
-}
-
-// A track of a film has one text at a time, and the language of the picture.
-TEST(FilmTrack, GoesIntoTheFile) {
-    const std::vector<output::Chapter> texts = subtitle_track({{0, 2, "a"}, {1, 3, "b"}, {5, 6, "c"}});
-    ASSERT_EQ(texts.size(), 4u);
-    EXPECT_EQ(texts[1].title, "a\nb");
-    EXPECT_EQ(texts[2].title, "b");
-    EXPECT_EQ(texts[3].from, 5);
-    const Folder folder;
-    if (shell(folder, "command -v ffmpeg").code != 0) GTEST_SKIP() << "without ffmpeg";
-    for (const std::string ending : {".mp4", ".mov", ".mkv", ".webm"}) {
-        folder.write("s.json", R"({"time": {"end": 0.4}, "outputs": [{"type": "video", "file": "a)" + ending + R"(",
-            "size": [320, 180], "fps": 20, "view": {"style": "flat"}, "subtitles": "track", "lang": "zh",
-            "events": [{"at": 0.1, "text": "falls", "show": 0.2}]}]})");
-        const Finished made = shell(folder, "$BEAMCAM run s.json -q --force");
-        ASSERT_EQ(made.code, 0) << ending << made.err;
-        const std::string read = shell(folder, "ffmpeg -v error -i a" + ending + " -f srt -").out;
-        EXPECT_THAT(read, HasSubstr("00:00:00,100 --> 00:00:00,3")) << ending;
-        EXPECT_THAT(read, HasSubstr("falls")) << ending;
-        EXPECT_THAT(read, HasSubstr("t = 0.2774 s")) << ending;
-        EXPECT_THAT(shell(folder, "ffprobe -v error -show_streams a" + ending).out, HasSubstr("language=")) << ending;
-    }
-}
-
-// Empty lines would end a cue, and SubRip has no escapes for markup.
-TEST(FilmTrack, CuesKeepTheirText) {
-    const std::vector<Cue> cues{{0, 1, "one\n\n\ntwo <i>"}};
-    EXPECT_THAT(subtitle_file(cues, Subtitles::vtt), HasSubstr("\none\ntwo &lt;i&gt;\n\n"));
-    const std::string srt = subtitle_file(cues, Subtitles::srt);
-    EXPECT_THAT(srt, HasSubstr("\none\ntwo <"));
-    EXPECT_THAT(srt, Not(HasSubstr("<i>")));
-}
-
-TEST(Films, HaveSubtitlesBesideThemAndChaptersWithin) {
-    const Folder folder;
-    folder.write("s.json",
-                 R"({"time": {"end": 0.5}, "outputs": [{"type": "video", "file": "f.mkv", "size": [96, 96], "fps": 20,
-        "view": {"style": "flat"}, "subtitles": "srt", "chapters": true}]})");
-    ASSERT_EQ(shell(folder, "$BEAMCAM run s.json").code, 0);
-    EXPECT_THAT(testing::slurp(folder / "f.srt"), HasSubstr("Impact 1"));
-    EXPECT_THAT(testing::slurp(folder / "f.mkv"), HasSubstr("Impact 1"));
-    EXPECT_THAT(shell(folder, "$BEAMCAM run s.json").err, HasSubstr("kept ./f.mkv: up to date"));
-}
-
 TEST(Films, OfFewFramesSuggestADuration) {
     const Folder folder;
     folder.write("s.json",
@@ -659,28 +581,6 @@ TEST(Films, ArePalerWhereTheMotionIsNotReproducibleIfTheyAreAsked) {
     EXPECT_THAT(shell(folder, "$BEAMCAM plan s.json --force").out, HasSubstr("compared with further runs"));
 }
 
-// A logo is an input: another picture in the file makes another film.
-TEST(Films, BearALogoAndColoursOfTheirOwn) {
-    const Folder folder;
-    folder.write("l.json", R"({"outputs": [{"type": "still", "at": 0, "file": "l.png", "size": [64, 32],
-        "view": {"style": "flat"}}]})");
-    folder.write("s.json", R"({"outputs": [{"type": "still", "at": 0, "file": "s.png", "size": [640, 360],
-        "view": {"style": "flat"}, "logo": "l.png", "palette": {"motion": "#8844aa"}}]})");
-    const Finished without = shell(folder, "$BEAMCAM run s.json");
-    EXPECT_EQ(without.code, 3);
-    EXPECT_THAT(without.err, HasSubstr("s.json:2:"));
-    EXPECT_THAT(without.err, HasSubstr("outputs.0.logo = \"l.png\""));
-    ASSERT_EQ(shell(folder, "$BEAMCAM run l.json && $BEAMCAM run s.json").code, 0);
-    const auto digest = [&] { return shell(folder, "picture_hash s.png | cut -c1-64").out; };
-    const std::string first = digest();
-    EXPECT_THAT(shell(folder, "$BEAMCAM run s.json").err, HasSubstr("up to date"));
-    ASSERT_EQ(shell(folder, "$BEAMCAM run l.json --force --set outputs.0.theme=dark && $BEAMCAM run s.json").code, 0);
-    EXPECT_NE(digest(), first);
-    folder.write("t.json", R"({"outputs": [{"type": "still", "at": 0, "palette": {"motion": "blue"}}]})");
-    EXPECT_THAT(shell(folder, "$BEAMCAM check t.json").err,
-                HasSubstr("outputs.0.palette.motion = \"blue\" is not a colour"));
-}
-
 // Events out of order are known only when the motion is.
 TEST(Films, RefuseKeyframesAtEventsOutOfOrder) {
     const Folder folder;
@@ -714,9 +614,6 @@ TEST(Films, TellOfWhatTheyWillNotShow) {
     const auto slow = told(R"({"type": "video", "speed": {"around": "intervals",
         "intervals": [{"from": 0.5, "to": 4, "factor": 0.5}]}})");
     EXPECT_THAT(slow.second, HasSubstr("outputs.0.speed.intervals.0.to = 4 s is outside the film"));
-    const auto exposed = told(R"({"type": "still", "at": 0.1, "view": {"exposures": 4}})");
-    EXPECT_THAT(exposed.second,
-                HasSubstr("outputs.0.view.exposures has no effect without a \"shutter\" or \"strobe\""));
     const auto nowhere =
         told(R"({"type": "video", "events": [{"at": 0.2, "text": "C", "anchor": "cam"}]})", R"("cam": null, )");
     EXPECT_FALSE(nowhere.first);
@@ -765,40 +662,6 @@ TEST(Films, AFactorThatYieldsIsTold) {
                 ::testing::Not(HasSubstr("warning")));
 }
 
-// One frame has all of the path that led to it.
-TEST(Films, AStillHasThePathOfTheTip) {
-    SKIP_UNDER_SANITIZERS();
-    const Folder folder;
-    folder.write("s.json",
-                 R"({"cam": null, "time": {"end": 1}, "outputs": [{"type": "still", "file": "a.png", "at": 0.7,
-        "size": [320, 180], "layout": "mechanism", "view": {"style": "flat", "tip_path": "whole"}},
-        {"type": "still", "file": "b.png", "at": 0, "size": [320, 180], "layout": "mechanism", "view": {"style": "flat", "tip_path": "whole"}}]})");
-    ASSERT_EQ(shell(folder, "$BEAMCAM run s.json").code, 0);
-    EXPECT_EQ(shell(folder,
-                    "$BEAMCAM run s.json --force --set outputs.0.file=c.png --set outputs.0.view.tip_path=recent "
-                    "--set outputs.1.file=d.png")
-                  .code,
-              0);
-    EXPECT_EQ(shell(folder, "$BEAMCAM diff a.png c.png").code, 7);
-    EXPECT_EQ(shell(folder, "$BEAMCAM diff b.png d.png").code, 0);
-}
-
-TEST(Films, ALogoThatWouldBeAHairlineOrIsNoFileIsRefused) {
-    const Folder folder;
-    folder.write("s.json", R"({"outputs": [{"type": "still", "at": 0, "file": "s.png", "size": [640, 360],
-        "view": {"style": "flat"}, "logo": "l.png"}]})");
-    EXPECT_THAT(shell(folder, "$BEAMCAM check s.json --set outputs.0.logo=").err, HasSubstr("outputs.0.logo is empty"));
-    const auto logo = [&](const char* size) {
-        return shell(folder, std::string("ffmpeg -v error -y -f lavfi -i color=c=red:size=") + size +
-                                 " -frames:v 1 l.png && $BEAMCAM check s.json")
-            .err;
-    };
-    EXPECT_THAT(logo("220x20"), HasSubstr("at most 10 times as wide as high"));
-    EXPECT_THAT(logo("20x102"), HasSubstr("5 times as high as wide"));
-    EXPECT_THAT(logo("200x20"), ::testing::Not(HasSubstr("logo")));
-    EXPECT_THAT(logo("20x100"), ::testing::Not(HasSubstr("logo")));
-}
-
 TEST(Films, ATitleThatDoesNotFitIsTold) {
     const Folder folder;
     folder.write("s.json", R"({"time": {"end": 0.1}, "outputs": [{"type": "still", "file": "a.png", "at": 0.1,
@@ -843,7 +706,7 @@ TEST(Films, CharactersThatNoFontHasAreTold) {
     const Folder folder;
     folder.write("s.json",
                  R"({"title": "Fall 🙂", "time": {"end": 0.4}, "outputs": [{"type": "frames", "file": "a-##.png",
-        "size": [64, 48], "fps": 10, "view": {"style": "flat", "shutter": 3, "camera": {"keyframes": [{"at": "impact:1", "zoom": 4}]}}}]})");
+        "size": [64, 48], "fps": 10, "view": {"style": "flat", "camera": {"keyframes": [{"at": "impact:1", "zoom": 4}]}}}]})");
     const Finished run = shell(folder, "$BEAMCAM run s.json");
     EXPECT_EQ(run.code, 0) << run.err;
     EXPECT_THAT(run.err, HasSubstr("omits 🙂: no font has these characters"));

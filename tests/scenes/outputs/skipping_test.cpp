@@ -294,24 +294,6 @@ TEST(Skipping, AnInterruptedSequenceInSlowMotionResumes) {
     EXPECT_EQ(count(shell(folder, "$BEAMCAM run -v s.json -o part"), "frames_left"), 0);
 }
 
-TEST(Skipping, PartsHaveThePixelsOfTheWhole) {
-    const Folder folder;
-    folder.write("s.json", scene(std::string(kFrames) + ", " + kStill));
-    shell(folder, "$BEAMCAM run -q s.json -o whole");
-    for (const char* shard : {"3/3", "1/3", "2/3"}) {
-        const Finished run = shell(folder, fmt::format("$BEAMCAM run -v s.json -o parts --shard {}", shard));
-        EXPECT_LE(count(run, "frames_drawn"), 4) << shard;
-    }
-    EXPECT_EQ(shell(folder, "cd whole && for f in *.png; do cmp $f ../parts/$f || exit 1; done").code, 0);
-    const Finished two = shell(folder, "$BEAMCAM render s.json -v -o g-###.png --frames 6:8");
-    EXPECT_EQ(count(two, "frames_drawn"), 2);
-    EXPECT_EQ(pixels(folder / "g-006.png"), pixels(folder / "whole/f-006.png"));
-    EXPECT_EQ(pixels(folder / "g-007.png"), pixels(folder / "whole/f-007.png"));
-    for (const char* wrong : {"--frames 3:8", "--frames 6:13", "--frames 7:7", "--frames 7", "--frames a:b",
-                              "--shard 0/3", "--shard 4/3", "--shard 2", "--frames 6:8 --shard 1/2"})
-        EXPECT_EQ(shell(folder, fmt::format("$BEAMCAM render s.json -o h-###.png {}", wrong)).code, 2) << wrong;
-}
-
 TEST(Skipping, AnotherOutputThatLooksFurtherLeavesThePixelsAsTheyWere) {
     const Folder folder;
     const std::string still =
@@ -321,35 +303,6 @@ TEST(Skipping, AnotherOutputThatLooksFurtherLeavesThePixelsAsTheyWere) {
                  "{\"outputs\": [" + still + R"(, {"type": "trajectory", "file": "t.csv", "times": [0.9]}]})");
     shell(folder, "$BEAMCAM run -q a.json -o a; $BEAMCAM run -q b.json -o b");
     EXPECT_EQ(pixels(folder / "a/s.png"), pixels(folder / "b/s.png"));
-}
-
-// Segments are encoded each for itself, so only lossless ones (crf 0) can be compared with the film made in one go.
-TEST(Skipping, JoinedSegmentsDecodeToThePicturesOfTheWholeFilm) {
-    const Folder folder;
-    folder.write("s.json", R"({"time": {"end": 0.3}, "title": "A fall", "outputs": [{"type": "video", "file": "f.mp4",
-        "size": [320, 180], "fps": 40, "crf": 0, "view": {"style": "flat"}}]})");
-    shell(folder, "$BEAMCAM run -q s.json");
-    for (const char* shard : {"1/3", "2/3", "3/3"})
-        EXPECT_EQ(shell(folder, fmt::format("$BEAMCAM run -q s.json --shard {}", shard)).code, 0);
-    const Finished joined = shell(folder, "$BEAMCAM concat f.1of3.mp4 f.2of3.mp4 f.3of3.mp4 -o j.mp4");
-    ASSERT_EQ(joined.code, 0) << joined.err;
-    EXPECT_THAT(joined.err, HasSubstr("12 frames of 3 segments"));
-    const auto digests = [&](const char* file) { return frame_digests(folder, file); };
-    EXPECT_EQ(std::ranges::count(digests("f.mp4"), '\n'), 12);
-    EXPECT_EQ(digests("j.mp4"), digests("f.mp4"));
-    const auto tags = [&](const char* file) {
-        return shell(folder, fmt::format("ffprobe -v error -show_entries format_tags {}", file)).out;
-    };
-    EXPECT_EQ(tags("j.mp4"), tags("f.mp4"));
-    EXPECT_THAT(tags("f.2of3.mp4"), HasSubstr("beamcam-frames=4:8 of 0:12"));
-    // Parts of parts keep their numbers.
-    EXPECT_EQ(shell(folder, "$BEAMCAM concat f.2of3.mp4 f.3of3.mp4 -o late.mp4").code, 0);
-    EXPECT_THAT(tags("late.mp4"), HasSubstr("beamcam-frames=4:12 of 0:12"));
-    EXPECT_EQ(shell(folder, "$BEAMCAM concat f.1of3.mp4 late.mp4 -o j.mp4").code, 0);
-    EXPECT_EQ(digests("j.mp4"), digests("f.mp4"));
-    shell(folder, "$BEAMCAM render -q s.json --frames :5 -o a.mp4; $BEAMCAM render -q s.json --frames 5: -o b.mp4");
-    EXPECT_EQ(shell(folder, "$BEAMCAM concat a.mp4 b.mp4 -o j.mp4").code, 0);
-    EXPECT_EQ(digests("j.mp4"), digests("f.mp4"));
 }
 
 TEST(Skipping, WithAVariableRateAFrozenPictureIsCodedOnce) {
@@ -369,60 +322,6 @@ TEST(Skipping, WithAVariableRateAFrozenPictureIsCodedOnce) {
     const auto digests = [&](const char* file) { return frame_digests(folder, file, "-vf fps=20"); };
     EXPECT_EQ(std::ranges::count(digests("v.mkv"), '\n'), 28);
     EXPECT_EQ(digests("v.mkv"), digests("c.mkv"));
-    // Parts keep every frame, so that they can be joined.
-    shell(folder, "for k in 1 2; do $BEAMCAM run -q s.json --set outputs.0.rate_mode=variable --shard $k/2; done");
-    EXPECT_EQ(shell(folder, "$BEAMCAM concat f.1of2.mkv f.2of2.mkv -o j.mkv").code, 0);
-    EXPECT_EQ(digests("j.mkv"), digests("c.mkv"));
-    const Finished refused = shell(folder, "$BEAMCAM concat v.mkv c.mkv -o no.mkv");
-    EXPECT_EQ(refused.code, 6);
-    EXPECT_THAT(refused.err, HasSubstr("v.mkv has a variable frame rate"));
-}
-
-TEST(Skipping, SegmentsOfOtherContainersAreJoinedToo) {
-    const Folder folder;
-    folder.write("s.json", R"({"time": {"end": 0.5}})");
-    for (const char* ending : {"webm", "mkv", "mov"}) {
-        for (const char* shard : {"1/2", "2/2"})
-            ASSERT_EQ(shell(folder,
-                            fmt::format("$BEAMCAM render s.json -o f.{} --size 160x90 --fps 24 --style flat --shard {}",
-                                        ending, shard))
-                          .code,
-                      0);
-        const Finished joined = shell(folder, fmt::format("$BEAMCAM concat f.1of2.{0} f.2of2.{0} -o j.{0}", ending));
-        ASSERT_EQ(joined.code, 0) << joined.err;
-        EXPECT_THAT(joined.err, HasSubstr("12 frames of 2 segments"));
-        EXPECT_EQ(
-            shell(folder,
-                  fmt::format("ffprobe -v error -count_frames -show_entries stream=nb_read_frames -of csv=p=0 j.{}",
-                              ending))
-                .out,
-            "12\n");
-    }
-    EXPECT_EQ(shell(folder, "$BEAMCAM concat f.1of2.webm f.2of2.webm -o k.mp4").code, 2);
-}
-
-TEST(Skipping, WhatMakesNoFilmIsRefusedInWords) {
-    const Folder folder;
-    folder.write("s.json", R"({"time": {"end": 0.2}, "outputs": [{"type": "video", "file": "f.mp4", "size": [320, 180],
-        "fps": 20, "view": {"style": "flat"}}]})");
-    shell(folder, "for k in 1 2; do $BEAMCAM run -q s.json --shard $k/2; done");
-    shell(folder,
-          "$BEAMCAM render -q s.json --size 160x90 -o small.mp4; $BEAMCAM render -q s.json --theme dark -o dark.mp4");
-    folder.write("text.mp4", "no film");
-    const auto refusal = [&](const char* segments) {
-        const Finished run = shell(folder, fmt::format("$BEAMCAM concat {} -o j.mp4", segments));
-        EXPECT_EQ(run.code, 6) << segments;
-        EXPECT_FALSE(fs::exists(folder / "j.mp4"));
-        return run.err;
-    };
-    EXPECT_THAT(refusal("f.2of2.mp4 f.1of2.mp4"), HasSubstr("in order, without gaps"));
-    EXPECT_THAT(refusal("f.1of2.mp4 f.1of2.mp4"), HasSubstr("in order, without gaps"));
-    EXPECT_THAT(refusal("f.1of2.mp4 small.mp4"), HasSubstr("different sizes 320x180 and 160x90"));
-    EXPECT_THAT(refusal("f.1of2.mp4 dark.mp4"), HasSubstr("different scenes"));
-    EXPECT_THAT(refusal("f.1of2.mp4 text.mp4"), HasSubstr("cannot read text.mp4"));
-    EXPECT_THAT(refusal("absent.mp4"), HasSubstr("cannot read absent.mp4"));
-    EXPECT_EQ(shell(folder, "$BEAMCAM concat f.1of2.mp4 -o f.1of2.mp4").code, 2);
-    EXPECT_EQ(shell(folder, "$BEAMCAM concat f.1of2.mp4 -o j.avi").code, 2);
 }
 
 }  // namespace

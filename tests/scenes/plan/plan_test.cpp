@@ -217,9 +217,9 @@ constexpr const char* kTwo = R"({"outputs": [
     {"type": "frames", "file": "f-##.png", "fps": 20, "to": 0.5, "size": [320, 180], "view": {"style": "flat"}},
     {"type": "trajectory", "file": "t.csv", "times": [0.4]}]})";
 
-std::string text_with(const ExistingWork& existing, const Selection& selection = {}) {
+std::string text_with(const ExistingWork& existing) {
     const Scene scene = scene_of(kTwo);
-    return to_text(plan(scene, selection, existing), scene);
+    return to_text(plan(scene, {}, existing), scene);
 }
 
 TEST(PlanText, WhatIsUpToDateIsKept) {
@@ -248,30 +248,6 @@ motion      first-order, 2 modes: until 0.4 s, "fast"
 still       a.png
 still       b.png
 )");
-}
-
-TEST(PlanText, AShardDrawsItsPartAndTheFirstMakesTheRest) {
-    EXPECT_EQ(text_with({}, {.shard = {2, 3}}), R"(motion      first-order, 2 modes: until 0.5 s
-frames      f-##.png: 3 frames
-)");
-}
-
-TEST(Plan, ShardsCoverEveryFrameOnce) {
-    const Scene scene = scene_of(R"({"outputs": [{"type": "video", "fps": 20, "from": 0.3}]})");
-    for (const std::uint64_t count : {1, 2, 3, 7, 24}) {
-        std::vector<int> all;
-        for (std::uint64_t number = 1; number <= count; ++number) {
-            const Plan p = plan(scene, {.shard = {number, count}});
-            ASSERT_EQ(p.pictures.size(), 1u);
-            all.insert(all.end(), p.pictures[0].draw.begin(), p.pictures[0].draw.end());
-            // Scales and camera are those of the whole film.
-            EXPECT_EQ(shown_by(p.pictures[0]).poses[kFramePoses].times.size(), 24u);
-        }
-        EXPECT_EQ(all.size(), 24u);
-        EXPECT_TRUE(std::is_sorted(all.begin(), all.end()));
-    }
-    EXPECT_TRUE(plan(scene_of(R"({"outputs": [{"type": "video", "fps": 1}]})"), {.shard = {25, 30}}).pictures.empty());
-    EXPECT_EQ(shard_file("out/fall.mp4", {2, 3}), "out/fall.2of3.mp4");
 }
 
 TEST(Plan, PicturesThatEndBeforeTheRunReportOnlyTheirPart) {

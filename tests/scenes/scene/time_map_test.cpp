@@ -101,29 +101,6 @@ TEST(FilmTimes, IntervalsThatOverlapAreRejected) {
     EXPECT_THROW(film_times(span, 1, {}), render::PictureError);
 }
 
-// Of a shutter of half a turn, eight instants over the first half of the way to the next frame.
-TEST(FilmTimes, ExposuresAreExactInstantsBetweenFrames) {
-    FilmTimes times;
-    times.frames = {0, 0.1, 0.3};
-    View view;
-    add_exposures(times, view, 10, 1);
-    EXPECT_TRUE(times.exposures.empty());
-    view.shutter = std::acos(-1), view.exposures = 2;
-    add_exposures(times, view, 10, 0.35);
-    EXPECT_EQ(times.exposures.size(), 6U);
-    const double expected[] = {0, 0.025, 0.1, 0.15, 0.3, 0.35};
-    for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(times.exposures[i], expected[i], 1e-12) << i;
-}
-TEST(FilmTimes, TheStrobeFlashesAtMultiplesOfItsTime) {
-    FilmTimes times;
-    times.frames = {0, 0.1, 0.25};
-    View view;
-    view.strobe_every = 0.1, view.exposures = 2;
-    add_exposures(times, view, 10, 1);
-    const double expected[] = {0, 0, 0, 0.1, 0.1, 0, 0.25, 0.1, 0.2};  // a flash before the start is none
-    ASSERT_EQ(times.exposures.size(), 9U);
-    for (std::size_t i = 0; i < 9; ++i) EXPECT_NEAR(times.exposures[i], expected[i], 1e-12) << i;
-}
 TEST(FilmTimes, TheCameraArrivesAtTheFrameOfItsInstant) {
     FilmTimes times;
     for (int k = 0; k < 60; ++k) times.frames.push_back(k / 30.0);

@@ -160,17 +160,6 @@ TEST(SweepParts, WithImpossiblePointsAreComputedAgain) {
     EXPECT_EQ(slurp(folder / "victim"), "");
 }
 
-TEST(SweepParts, OfFilmsAreThoseOfAnArrayTaskToo) {
-    const Folder folder;
-    folder.write("s.json", R"({"time": {"end": 0.2}, "outputs": [{"type": "video", "file": "f.mp4", "fps": 60}]})");
-    const Finished task = shell(folder,
-                                "SLURM_ARRAY_TASK_ID=2 SLURM_ARRAY_TASK_MIN=1 SLURM_ARRAY_TASK_COUNT=3 "
-                                "$BEAMCAM run s.json -n --shard auto");
-    EXPECT_EQ(task.code, 0) << task.err;
-    EXPECT_THAT(task.out, HasSubstr("f.2of3.mp4: 4 frames"));
-    EXPECT_EQ(shell(folder, "$BEAMCAM run s.json -n --shard auto").code, 2);
-}
-
 TEST(SweepParts, EndWithTheSameBytesAfterTheyWereKilled) {
     const Folder folder;
     folder.write("s.json", kPartedScene);

@@ -238,8 +238,6 @@ TEST(SweepCommand, RejectsWithAMessage) {
           {"--over initial.angle=0.4:0.5:2n --seed carry-up", 2, "use \"same\""},
           {"--caption c.txt", 2, "belongs to --diagram"},
           {"--diagram d.pdf --value v_n", 2, "--value v_n: the samples of the sweep have no column \"v_n\""},
-          {"--film f.mp4 --value class", 2, "no column \"class\""},
-          {"--film f.mp4 --sample apexes --value duration", 2, "no column \"duration\""},
           {"--over 'cam.speed=100:900:9 rpm'", 2, "some of its numbers have a unit"},
           {"--over 'cam.speed=100:900 rpm:9'", 2, "some of its numbers have a unit"},
           {"--over 'cam.speed=100 rpm:900 rpm:0.5'", 2, "some of its numbers have a unit"},
@@ -269,8 +267,8 @@ TEST(SweepCommand, PlansPointsAndFiles) {
     Folder folder;
     folder.write("s.json", kSweptScene);
     EXPECT_THAT(shell(folder, "$BEAMCAM sweep s.json -n --seed random:4").out, HasSubstr(": 124 points\n"));
-    const std::string files = shell(folder, "$BEAMCAM sweep s.json -n --film f.mp4 --diagram d.pdf -o r.csv").out;
-    for (const char* words : {"sweep       r.csv", "sweep-film  f.mp4: 900 frames", "figure      d.pdf: bifurcation"})
+    const std::string files = shell(folder, "$BEAMCAM sweep s.json -n --diagram d.pdf -o r.csv").out;
+    for (const char* words : {"sweep       r.csv", "figure      d.pdf: bifurcation"})
         EXPECT_THAT(files, HasSubstr(words));
     EXPECT_FALSE(std::filesystem::exists(folder / "r.csv"));
 }
