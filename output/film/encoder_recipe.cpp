@@ -51,12 +51,7 @@ const std::vector<EncoderRow>& encoder_rows() {
          {{"alpha_bits", "16"}}},
         {Codec::ffv1, "ffv1", kBgr, kBgra, {{"level", "3"}, {"slicecrc", "1"}, {"slices", "4"}}},
         {Codec::gif, "gif", kIndices, kIndices, {}, {{"loop", "0"}}},
-        {Codec::webp,
-         "libwebp_anim",
-         kBgra,
-         kBgra,
-         {{"quality", "80"}, {"compression_level", "2"}},
-         {{"loop", "0"}}}};
+        {Codec::webp, "libwebp_anim", kBgra, kBgra, {{"quality", "80"}, {"compression_level", "2"}}, {{"loop", "0"}}}};
     return rows;
 }
 
@@ -94,8 +89,7 @@ EncoderRecipe encoder_recipe(const VideoOptions& o, const std::string& ending) {
     r.container = container_of(ending);
     add_encoder(r, o);
     r.missing = std::string("the FFmpeg libraries on this machine have no ") + title(o.codec) + " encoder (" +
-                r.encoder +
-                "); install the distribution's full build of libavcodec, or choose another codec";
+                r.encoder + "); install the distribution's full build of libavcodec, or choose another codec";
     // faststart: the index comes first, so that players can start before they have the whole file.
     // use_metadata_tags: keeps our own keys.
     if (ending == ".mp4" || ending == ".mov")

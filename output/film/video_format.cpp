@@ -115,8 +115,7 @@ std::string size_problem(Codec codec, int width, int height) {
     if (row_of(codec).even && (width % 2 != 0 || height % 2 != 0))
         return "a film of " + size + " pixels is not possible, because " + title(codec) +
                " (yuv420p) stores colour for pairs of rows and columns; use " + std::to_string(width + width % 2) +
-               "x" + std::to_string(height + height % 2) +
-               ", or a .mov (prores), .mkv (ffv1), .gif or .webp file";
+               "x" + std::to_string(height + height % 2) + ", or a .mov (prores), .mkv (ffv1), .gif or .webp file";
     return {};
 }
 

@@ -19,9 +19,12 @@ const VideoLibrary& video_library() {
 VideoCapabilities video_capabilities() {
     const VideoLibrary& library = video_library();
     VideoCapabilities found{library.versions(), {}};
-    constexpr std::pair<const char*, const char*> kEncoders[] = {
-        {"H.264 (libx264)", "libx264"}, {"VP9 (libvpx)", "libvpx-vp9"}, {"ProRes", "prores_ks"},
-        {"FFV1", "ffv1"},               {"GIF", "gif"},                 {"WebP (libwebp)", "libwebp_anim"}};
+    constexpr std::pair<const char*, const char*> kEncoders[] = {{"H.264 (libx264)", "libx264"},
+                                                                 {"VP9 (libvpx)", "libvpx-vp9"},
+                                                                 {"ProRes", "prores_ks"},
+                                                                 {"FFV1", "ffv1"},
+                                                                 {"GIF", "gif"},
+                                                                 {"WebP (libwebp)", "libwebp_anim"}};
     for (const auto& [name, encoder] : kEncoders) found.encoders[name] = library.has_encoder(encoder);
     return found;
 }

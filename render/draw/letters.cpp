@@ -29,14 +29,20 @@ constexpr Typography kScreenLetters{
     true,
     {.cap_height = 0.727, .script_size = 1690. / 2816, .raised = 986. / 2816, .lowered = 0.17, .behind_italic = 0}};
 // No letter of a page is smaller than 6 pt, sub- and superscripts included.
-constexpr Typography kPrintLetters{
-    "Liberation Sans,Droid Sans Fallback", "Liberation Serif,Droid Sans Fallback", "Droid Sans Fallback", 1.12, false,
-    false,
-    {.cap_height = 0.716, .smallest = 6}};
-constexpr Typography kSerifLetters{
-    "Liberation Serif,Droid Sans Fallback", "Liberation Serif,Droid Sans Fallback", "Droid Sans Fallback", 1, false,
-    false,
-    {.cap_height = 0.655, .smallest = 6}};
+constexpr Typography kPrintLetters{"Liberation Sans,Droid Sans Fallback",
+                                   "Liberation Serif,Droid Sans Fallback",
+                                   "Droid Sans Fallback",
+                                   1.12,
+                                   false,
+                                   false,
+                                   {.cap_height = 0.716, .smallest = 6}};
+constexpr Typography kSerifLetters{"Liberation Serif,Droid Sans Fallback",
+                                   "Liberation Serif,Droid Sans Fallback",
+                                   "Droid Sans Fallback",
+                                   1,
+                                   false,
+                                   false,
+                                   {.cap_height = 0.655, .smallest = 6}};
 
 const Typography& typography(Typefaces typefaces) {
     return typefaces == Typefaces::screen  ? kScreenLetters
@@ -46,7 +52,8 @@ const Typography& typography(Typefaces typefaces) {
 
 constexpr guint16 kFaintOpacity = 14417;  // 22 % of 65535
 
-// Runs of Chinese, Japanese and Korean are written by one font, although those of mathematics have a few of the letters.
+// Runs of Chinese, Japanese and Korean are written by one font, although those of mathematics have a few of the
+// letters.
 void add_cjk_runs(PangoAttrList* attributes, const char* family, const std::string& text) {
     const char *const begin = text.data(), *const end = begin + text.size();
     for (const char* at = begin; at < end;) {

@@ -42,7 +42,8 @@ class CloseUpPanel final : public FilmPanel {
         const Palette& p = *context_.palette;
         const TextStyle bold{.size = context_.heading(), .weight = Weight::semibold},
             plain{.size = context_.heading(), .weight = Weight::medium};
-        const double room = plot_.w - canvas.measure(context_.translate("penetration") + " 000\u00A0µm", plain).w - 16 * u;
+        const double room =
+            plot_.w - canvas.measure(context_.translate("penetration") + " 000\u00A0µm", plain).w - 16 * u;
         const std::string whose = motion_suffix(context_, member_);
         const std::string whole = context_.translate("Contact close-up"), brief = context_.translate("Contact");
         // The reading is beside the heading.

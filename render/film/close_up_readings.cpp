@@ -72,7 +72,8 @@ void CloseUpReadings::draw_corner(Canvas& canvas, const sim::Pose& pose, double 
     const double counted = count.empty() ? 0 : canvas.measure(count, style).w;
     const bool rubs = !std::holds_alternative<sim::NoFriction>(motion.problem.contact.friction);
     const char* widest = rubs ? kWidestSigned : kWidest;
-    const double read = canvas.measure(context.translate("friction") + " ", strong).w + canvas.measure(widest, strong).w;
+    const double read =
+        canvas.measure(context.translate("friction") + " ", strong).w + canvas.measure(widest, strong).w;
     const bool has_force = near.touching && near.force > 0 && plot.h >= 120 * u && read <= room;
     const bool has_count = counted > 0 && counted < room, has_friction = has_force && rubs;
     if (!has_count && !has_force) return;

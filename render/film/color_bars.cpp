@@ -41,7 +41,8 @@ void draw_color_bars(Canvas& canvas, const FilmContext& context) {
     };
     double right = b.right();
     if (context.force_scale > 0) {
-        bar(right, trace_title, [&](double s) { return force_color(palette, s); }, trace_marks(context));
+        bar(
+            right, trace_title, [&](double s) { return force_color(palette, s); }, trace_marks(context));
         right -= wide + 50 * u;
     }
     if (context.moment_scale > 0) {

@@ -88,12 +88,13 @@ class EnergyPanel final : public ChartPanel {
         const Box plot = plot_area(box_, u, context_.tick);
         std::vector<Part> shown = parts(context_);
         std::erase_if(shown, [&](const Part& part) { return !occurs(part); });
-        const double first = plot.x +
-                             canvas
-                                 .measure((is_wide(context_, box_) ? context_.translate("Energy") + " E / mJ" : "E / mJ"),
-                                          {.size = context_.heading(), .weight = Weight::semibold})
-                                 .w +
-                             20 * u;
+        const double first =
+            plot.x +
+            canvas
+                .measure((is_wide(context_, box_) ? context_.translate("Energy") + " E / mJ" : "E / mJ"),
+                         {.size = context_.heading(), .weight = Weight::semibold})
+                .w +
+            20 * u;
         struct Step {
             double size, swatch, gap;
             bool in_symbols = false;

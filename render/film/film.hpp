@@ -38,8 +38,8 @@ enum class Style { lit, flat, solid };
 struct View {
     Style style = Style::lit;
     Theme theme = Theme::light;
-    std::optional<double> exaggeration;  // factor of deflection, >= 1; absent: chosen automatically
-    Shot shot = {};                      // at the start
+    std::optional<double> exaggeration;       // factor of deflection, >= 1; absent: chosen automatically
+    Shot shot = {};                           // at the start
     bool transparent = false;                 // without paper: the pictures have an alpha channel
     std::optional<std::uint32_t> paper = {};  // 0xrrggbb in place of the theme's
     Shown show = {};
@@ -127,8 +127,8 @@ struct FilmSetup : Motion {
     int width = 1920, height = 1080;  // [px], 1…16384
     View view;
     Units units;
-    std::optional<LayoutNode> layout;   // absent: the standard arrangement
-    std::vector<Motion> others;         // motions to compare with, poses at the same instants
+    std::optional<LayoutNode> layout;  // absent: the standard arrangement
+    std::vector<Motion> others;        // motions to compare with, poses at the same instants
     Comparison comparison = Comparison::panels;
     double fps = 60;                // frames per second, > 0: fades have durations in seconds
     std::vector<double> speeds;     // playback speed at each frame, 1 = real time; empty: always 1

@@ -171,7 +171,8 @@ std::string filled(std::string_view page, const std::map<std::string_view, std::
     std::string out;
     for (std::size_t at = 0; at < page.size();) {
         const std::size_t mark = page.find('@', at), end = page.find('@', std::min(mark, page.size() - 1) + 1);
-        const auto text = end == std::string_view::npos ? texts.end() : texts.find(page.substr(mark + 1, end - mark - 1));
+        const auto text =
+            end == std::string_view::npos ? texts.end() : texts.find(page.substr(mark + 1, end - mark - 1));
         const std::size_t kept = text == texts.end() && mark != std::string_view::npos ? mark + 1 : mark;
         out += page.substr(at, kept - at);
         if (mark == std::string_view::npos) break;

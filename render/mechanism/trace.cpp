@@ -68,11 +68,7 @@ std::vector<TraceSample> contact_samples(const sim::Table& table, const sim::Pro
 
 Trace::Trace(std::span<const TraceSample> samples, double circumference, std::size_t rim_places, double length,
              std::size_t beam_places)
-    : samples_(samples),
-      circumference_(circumference),
-      length_(length),
-      rim_(rim_places),
-      beam_(beam_places) {}
+    : samples_(samples), circumference_(circumference), length_(length), rim_(rim_places), beam_(beam_places) {}
 
 void Trace::advance_to(double t) {
     const auto after = std::ranges::upper_bound(samples_, t, {}, &TraceSample::t);

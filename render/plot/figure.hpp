@@ -179,9 +179,10 @@ Page page_of(const Figure& figure, const Column& column, std::optional<double> w
 // Throws PictureError when a panel has nothing to show, FontError for missing glyphs.
 void draw(const Figure& figure, const Page& page, PageCanvas& sheet);
 
-// The plotted numbers with 17 significant digits; a cell is empty where a curve has no point. Curves over the same x, or
-// of motions, are columns after one with x or the time t, in whose order the rows are; where a curve jumps, an instant
-// has two rows. Figures with cells, clouds of points or shapes have a line a point: panel, series, names and values.
+// The plotted numbers with 17 significant digits; a cell is empty where a curve has no point. Curves over the same x,
+// or of motions, are columns after one with x or the time t, in whose order the rows are; where a curve jumps, an
+// instant has two rows. Figures with cells, clouds of points or shapes have a line a point: panel, series, names and
+// values.
 std::string data_csv(const Figure& figure);
 
 // True when some text of the figure needs the Chinese face.

@@ -106,7 +106,8 @@ constexpr std::pair<std::string_view, std::string_view> kPhrases[] = {
 constexpr std::string_view kHole = "{}";  // in a phrase: any text without a separator
 constexpr std::string_view kSeparators[] = {" · ", ", "};
 
-// The phrases of films. The same number of holes in both, in the same order. The first phrase that is the whole text counts.
+// The phrases of films. The same number of holes in both, in the same order. The first phrase that is the whole text
+// counts.
 struct Phrase {
     std::string_view english, chinese;
 };

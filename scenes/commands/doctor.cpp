@@ -86,19 +86,18 @@ void examine(std::vector<Check>& checks, const char* group, const std::string& p
 void examine_films(std::vector<Check>& checks) {
     const std::string available = "available";
     std::istringstream lines;  // the versions, then two lines for each encoder
-    examine(checks, "films", "FFmpeg",
-            "install the Debian packages libavcodec59, libavformat59 (or newer)", [&] {
-                lines.str(in_child([&] {
-                    const output::VideoCapabilities found = output::video_capabilities();
-                    std::string text = found.versions + "\n";
-                    for (const auto& [name, exists] : found.encoders)
-                        text += fmt::format("{}\n{}\n", name, exists ? available : "not in these libraries");
-                    return text;
-                }));
-                std::string versions;
-                std::getline(lines, versions);
-                return versions;
-            });
+    examine(checks, "films", "FFmpeg", "install the Debian packages libavcodec59, libavformat59 (or newer)", [&] {
+        lines.str(in_child([&] {
+            const output::VideoCapabilities found = output::video_capabilities();
+            std::string text = found.versions + "\n";
+            for (const auto& [name, exists] : found.encoders)
+                text += fmt::format("{}\n{}\n", name, exists ? available : "not in these libraries");
+            return text;
+        }));
+        std::string versions;
+        std::getline(lines, versions);
+        return versions;
+    });
     if (!checks.back().ok) return;
     for (std::string name, state; std::getline(lines, name) && std::getline(lines, state);)
         checks.push_back({"films", name + " encoder", state == available, state,

@@ -50,9 +50,7 @@ struct FigureArguments {
     }
 };
 
-Node output_of(const std::string& figure) {
-    return object_node({{"type", FigureOutput::kType}, {"figure", figure}});
-}
+Node output_of(const std::string& figure) { return object_node({{"type", FigureOutput::kType}, {"figure", figure}}); }
 
 // Why the scene cannot have this figure.
 std::optional<std::string> refusal_of(const Preset& preset, const FigureArguments& args, const Scene& scene) {
@@ -188,8 +186,7 @@ void act(const FigureArguments& given) {
     }
     reject_options_of_others(args, *type);
     if (args.file.empty())
-        throw UsageError(
-            fmt::format("figure {}: name the file with -o, ending in .pdf, .svg or .png", args.figure));
+        throw UsageError(fmt::format("figure {}: name the file with -o, ending in .pdf, .svg or .png", args.figure));
     if (const auto refusal = refusal_of(*type, scene))
         throw SceneError(fmt::format("{}: no figure \"{}\": {}", args.scene, type->name, *refusal));
     scene.set_outputs({figure_output(args, preset, scene)});
@@ -207,8 +204,7 @@ void add_print_options(Command& app, FigureArguments& args) {
     args.print.add(app, "--font", "font", "FONT");
     args.print.add(app, "--theme", "theme", "THEME");
     app.option("--data", &args.data, "FILE", "Write the plotted numbers, too: .csv");
-    app.option("--caption", &args.caption, "FILE",
-               "Write the caption, too: .txt or .md");
+    app.option("--caption", &args.caption, "FILE", "Write the caption, too: .txt or .md");
 }
 
 void add_content_options(Command& app, FigureArguments& args) {

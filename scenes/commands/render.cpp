@@ -5,7 +5,6 @@
 #include <optional>
 #include <set>
 
-#include "output/files/numbers.hpp"
 #include "output/json/tree.hpp"
 #include "scenes/commands/key_options.hpp"
 #include "scenes/format/keys.hpp"
@@ -62,10 +61,7 @@ Output output_for_file(const RenderArguments& args, PictureOutput film) {
     if (ending == ".pdf" || ending == ".svg") return vector_still(args, film);
     const bool numbered = is_numbered(std::filesystem::path(args.file).filename().string());
     using enum PictureOutput::Kind;
-    film.kind = args.still.value("--at") ? still
-                : ending == ".html"      ? page
-                : ending == ".png"       ? frames
-                                         : video;
+    film.kind = args.still.value("--at") ? still : ending == ".html" ? page : ending == ".png" ? frames : video;
     if (film.kind == still && (ending != ".png" || numbered))
         throw UsageError(
             fmt::format("--at makes one picture; -o {} must be a .png, .pdf or .svg file without '#'", args.file));
@@ -183,10 +179,11 @@ void add_render(Grammar& grammar) {
                     "render fall.json -o touch.png --at impact:1", "render slow.json fast.json -o both.mp4 --to 0.5"};
     add_scene(app, args.scene, args.common);
     app.positional("OTHERS", &args.others, "Further scenes, compared with the first in one picture");
-    app.option("-o,--output", &args.file, "FILE",
-               "File to make. The ending chooses the kind: film (.mp4 .webm .mov .mkv .gif .webp), sequence of pictures "
-               "(name-####.png), still picture (.png, or .pdf .svg in vector graphics, with --at), page that plays the "
-               "motion (.html)")
+    app.option(
+           "-o,--output", &args.file, "FILE",
+           "File to make. The ending chooses the kind: film (.mp4 .webm .mov .mkv .gif .webp), sequence of pictures "
+           "(name-####.png), still picture (.png, or .pdf .svg in vector graphics, with --at), page that plays the "
+           "motion (.html)")
         .required();
     app.option("--title", &args.title, "TEXT", "Title of the picture");
     add_key_options(app, args);

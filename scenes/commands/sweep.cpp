@@ -135,8 +135,7 @@ void check_value(const SweepArguments& args, std::string_view diagram, const Sce
 // The files of the sweep as outputs of its scene.
 std::vector<Output> outputs_of(const SweepArguments& args, const Scene& scene) {
     std::vector<Output> outputs;
-    if (!args.file.empty() || !args.diagram)
-        outputs.emplace_back(SweepOutput{args.file.empty() ? "-" : args.file});
+    if (!args.file.empty() || !args.diagram) outputs.emplace_back(SweepOutput{args.file.empty() ? "-" : args.file});
     if (!args.diagram) return outputs;
     FigureOutput diagram;
     diagram.file = *args.diagram;

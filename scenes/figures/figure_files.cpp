@@ -51,8 +51,8 @@ auto drawn(const figure::Figure& f, const FigureOutput& how, figure::Medium medi
     const figure::Page page = page_of(f, how);
     const render::Fonts fonts(figure::needs_chinese(f),
                               how.serif ? render::Typefaces::serif : render::Typefaces::print);
-    figure::PageCanvas sheet(
-        medium, {figure::points(page.width), figure::points(page.height), how.dpi, how.dark}, fonts, document);
+    figure::PageCanvas sheet(medium, {figure::points(page.width), figure::points(page.height), how.dpi, how.dark},
+                             fonts, document);
     figure::draw(f, page, sheet);
     return take(sheet);
 }

@@ -84,8 +84,7 @@ void visit_picture(SceneVisitor& v, Picture& picture) {
         "clock; clean: none), or an object that removes parts. Without the legend the picture does not state the "
         "factor of the deflection.",
         SceneVisitor::keys_of(picture.view.show));
-    v.choice(written_if(picture.view.lang != Lang::en, "lang"), picture.view.lang, kLanguages,
-             "Language of labels.");
+    v.choice(written_if(picture.view.lang != Lang::en, "lang"), picture.view.lang, kLanguages, "Language of labels.");
     v.number(written_if(picture.view.show.size != 1, "text_scale"), picture.view.show.size, sim::kPlainNumber,
              between(0.5, 4, "is outside 0.5 … 4"),
              "Size of text, lines and marks; at 1 the numbers of axes have 2 % of the height of a 16:9 picture.");

@@ -18,8 +18,7 @@ void visit_video(SceneVisitor& v, PictureOutput& video) {
     using output::Codec;
     static const std::vector<Named<Codec>> kCodecs = [] {
         std::vector<Named<Codec>> all;
-        for (const Codec codec :
-             {Codec::h264, Codec::vp9, Codec::prores, Codec::ffv1, Codec::gif, Codec::webp})
+        for (const Codec codec : {Codec::h264, Codec::vp9, Codec::prores, Codec::ffv1, Codec::gif, Codec::webp})
             all.push_back({codec, output::name(codec)});
         return all;
     }();
@@ -30,9 +29,10 @@ void visit_video(SceneVisitor& v, PictureOutput& video) {
     v.value("poster", instant_format(video.span.poster),
             "The first frame at or after this instant is also written as a picture: fall.png beside fall.mp4. For a "
             "time outside the film the nearest frame.");
-    v.choice(sim::derived("codec"), video.encoding.codec, std::span<const Named<Codec>>(kCodecs),
-             "Codec. The default depends on the ending: .mp4 h264, .webm vp9, .mov prores (or h264), .mkv ffv1 (or h264, "
-             "vp9).");
+    v.choice(
+        sim::derived("codec"), video.encoding.codec, std::span<const Named<Codec>>(kCodecs),
+        "Codec. The default depends on the ending: .mp4 h264, .webm vp9, .mov prores (or h264), .mkv ffv1 (or h264, "
+        "vp9).");
     v.integer("crf", video.encoding.crf, 0, 63,
               "Quality of h264 (up to 51) and vp9: 0 is best; the defaults 18 and 24 look lossless.");
     v.choice(written_if(video.encoding.codec == Codec::h264, "preset"), video.encoding.preset,

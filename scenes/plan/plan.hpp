@@ -118,8 +118,8 @@ struct Plan {
     std::vector<DataFile> data;
     std::vector<std::string> kept;  // files that are up to date: "t.csv", "4 frames of f-##.png"
 
-    bool needs_gl() const;                                      // a lit view
-    bool needs_encoder() const;                                 // a video
+    bool needs_gl() const;                                             // a lit view
+    bool needs_encoder() const;                                        // a video
     const std::vector<double>& times(const Pictures& pictures) const;  // of its frames; empty while they are unknown
 };
 

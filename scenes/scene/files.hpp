@@ -18,7 +18,8 @@ std::string problem_with_numbering(std::string_view file);
 bool is_numbered(std::string_view file);
 inline bool is_stdout(std::string_view file) { return file == "-"; }
 std::string ending_of(const std::filesystem::path& file);  // ".png"
-// What a file with this ending is, if `info` reads no scene from it but from the list of files beside it; null: it does.
+// What a file with this ending is, if `info` reads no scene from it but from the list of files beside it; null: it
+// does.
 const char* kind_without_scene(std::string_view ending);
 
 // "a-####.png" and 12 give "a-0012.png"; longer numbers get more digits.

@@ -14,9 +14,9 @@
 namespace beamcam::scenes {
 
 struct FilmTimes {
-    std::vector<double> frames;     // [s] of the motion, not decreasing
-    long first = 0;                 // number of the first frame
-    std::vector<double> speeds;     // of each frame; empty in real time
+    std::vector<double> frames;  // [s] of the motion, not decreasing
+    long first = 0;              // number of the first frame
+    std::vector<double> speeds;  // of each frame; empty in real time
     std::vector<render::Callout> callouts;
     std::vector<render::CameraMove> moves;
     std::vector<std::string> unreached_events;  // events outside the film: "impact 3"

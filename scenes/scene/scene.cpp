@@ -35,8 +35,7 @@ std::vector<std::string> written_by(const Output& output) {
     const auto add_unless_empty = [&files](std::initializer_list<std::string> beside) {
         std::ranges::copy_if(beside, std::back_inserter(files), [](const std::string& file) { return !file.empty(); });
     };
-    if (const auto* video = picture_of(output, PictureOutput::Kind::video))
-        add_unless_empty({poster_file(*video)});
+    if (const auto* video = picture_of(output, PictureOutput::Kind::video)) add_unless_empty({poster_file(*video)});
     if (const auto* figure = std::get_if<FigureOutput>(&output))
         add_unless_empty({figure->data_file, figure->caption_file});
     return files;

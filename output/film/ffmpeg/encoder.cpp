@@ -38,9 +38,9 @@ const AVCodec& encoder_of(const EncoderSettings& s) {
 }
 
 // libwebp gives the last picture of an animation the mean duration of the others. Sets its duration such that all last
-// `total` [ms]. A WebP of one picture has no durations. Layout: "RIFF", size, "WEBP", then chunks of name, size, content
-// and a byte of padding for odd sizes; a chunk "ANMF" begins with five numbers of 24 bits, of which the last is the
-// duration (https://developers.google.com/speed/webp/docs/riff_container).
+// `total` [ms]. A WebP of one picture has no durations. Layout: "RIFF", size, "WEBP", then chunks of name, size,
+// content and a byte of padding for odd sizes; a chunk "ANMF" begins with five numbers of 24 bits, of which the last is
+// the duration (https://developers.google.com/speed/webp/docs/riff_container).
 void put_last_duration(AVPacket& packet, std::int64_t total) {
     constexpr std::size_t kFirstChunk = 12, kHead = 8, kDuration = 12;  // [bytes]
     std::uint8_t* last = nullptr;

@@ -144,7 +144,6 @@ void OutputFile::write_header(const OptionList& options) {
     if (code < 0) fail_to_write(code);
 }
 
-
 void OutputFile::write(AVPacket& packet) {
     int code = av_interleaved_write_frame(format_, &packet);
     if (code >= 0 && format_->pb->error < 0) code = format_->pb->error;

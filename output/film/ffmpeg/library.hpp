@@ -52,7 +52,7 @@ class OutputFile {
     AVStream& stream() const { return *stream_; }
     void set_tag(const std::string& key, const std::string& value);
     void write_header(const OptionList& options);
-    void write(AVPacket& packet);  // of the stream's time base
+    void write(AVPacket& packet);             // of the stream's time base
     void set_last_delay(std::int64_t delay);  // of a GIF: of its last picture, in the time base of the stream
     void end();
 

@@ -19,8 +19,8 @@ namespace {
 
 // The digest of a picture, as FFmpeg's own program takes it.
 std::string framehash(const std::filesystem::path& file) {
-    const std::string text = output_of("ffmpeg -v error -i " + in_shell(file) +
-                                       " -pix_fmt rgba -f framehash -hash sha256 - | tail -n 1");
+    const std::string text =
+        output_of("ffmpeg -v error -i " + in_shell(file) + " -pix_fmt rgba -f framehash -hash sha256 - | tail -n 1");
     return text.substr(text.rfind(' ') + 1, 64);
 }
 
@@ -130,7 +130,8 @@ TEST(FilmInfo, IsWhatTheFileStates) {
         EXPECT_EQ(info.height, 48) << name;
         EXPECT_EQ(info.codec, output::name(codec)) << name;
         EXPECT_NEAR(info.seconds, 40 / 60.0, 1e-3) << name;
-        EXPECT_EQ(info.frames, codec == Codec::h264 || codec == Codec::prores ? 40 : 0) << name;  // Matroska has no count
+        EXPECT_EQ(info.frames, codec == Codec::h264 || codec == Codec::prores ? 40 : 0)
+            << name;  // Matroska has no count
         const bool kept = std::ranges::any_of(info.metadata, [](const auto& tag) { return tag.second == "{}"; });
         EXPECT_TRUE(kept) << name;
     }

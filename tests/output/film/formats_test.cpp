@@ -103,12 +103,13 @@ TEST_P(Formats, TheSamePicturesGiveTheSameBytes) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, Formats,
-    testing::Values(
-        FormatCase{".mp4", Codec::h264, false, "h264", 3}, FormatCase{".webm", Codec::vp9, false, "vp9", 3},
-        FormatCase{".webm", Codec::vp9, true, "vp9", 3}, FormatCase{".mov", Codec::prores, false, "prores", 3},
-        FormatCase{".mov", Codec::prores, true, "prores", 3}, FormatCase{".mkv", Codec::ffv1, false, "ffv1", 0},
-        FormatCase{".mkv", Codec::ffv1, true, "ffv1", 0}, FormatCase{".gif", Codec::gif, false, "gif", 0},
-        FormatCase{".webp", Codec::webp, false, "webp", 0}, FormatCase{".webp", Codec::webp, true, "webp", 0}));
+    testing::Values(FormatCase{".mp4", Codec::h264, false, "h264", 3}, FormatCase{".webm", Codec::vp9, false, "vp9", 3},
+                    FormatCase{".webm", Codec::vp9, true, "vp9", 3},
+                    FormatCase{".mov", Codec::prores, false, "prores", 3},
+                    FormatCase{".mov", Codec::prores, true, "prores", 3},
+                    FormatCase{".mkv", Codec::ffv1, false, "ffv1", 0}, FormatCase{".mkv", Codec::ffv1, true, "ffv1", 0},
+                    FormatCase{".gif", Codec::gif, false, "gif", 0}, FormatCase{".webp", Codec::webp, false, "webp", 0},
+                    FormatCase{".webp", Codec::webp, true, "webp", 0}));
 
 TEST(FormatProblems, AnImpossibleCombinationNamesAnother) {
     EXPECT_NE(format_problem(".mp4", Codec::h264, true).find(".webm (vp9)"), std::string::npos);

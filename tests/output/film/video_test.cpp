@@ -121,9 +121,8 @@ TEST(Film, AVariableRateShowsTheSameAndCodesWhatIsHeldOnce) {
     };
     constexpr std::array<std::uint32_t, 4> kColours{0xff000000, 0xffc0392b, 0xff2c3e9f, 0xffffffff};
     constexpr std::array kTimes{8, 1, 151, 5};
-    for (const Kind& kind :
-         {Kind{".mp4", Codec::h264}, Kind{".mov", Codec::prores}, Kind{".webm", Codec::vp9}, Kind{".mkv", Codec::ffv1},
-          Kind{".gif", Codec::gif}}) {
+    for (const Kind& kind : {Kind{".mp4", Codec::h264}, Kind{".mov", Codec::prores}, Kind{".webm", Codec::vp9},
+                             Kind{".mkv", Codec::ffv1}, Kind{".gif", Codec::gif}}) {
         Scratch scratch;
         VideoOptions options = small_film();
         options.height = 64;
@@ -300,9 +299,11 @@ TEST(Film, LeavesNothingWhenItIsNotFinished) {
 
 TEST(Film, OfAnyCodecEndsWhenItIsDropped) {
     Scratch scratch;
-    const std::pair<const char*, Codec> kinds[] = {
-        {"a.webm", Codec::vp9}, {"a.mov", Codec::prores}, {"a.mkv", Codec::ffv1},
-        {"a.mp4", Codec::h264}, {"a.webp", Codec::webp}};
+    const std::pair<const char*, Codec> kinds[] = {{"a.webm", Codec::vp9},
+                                                   {"a.mov", Codec::prores},
+                                                   {"a.mkv", Codec::ffv1},
+                                                   {"a.mp4", Codec::h264},
+                                                   {"a.webp", Codec::webp}};
     for (const auto& [name, codec] : kinds)
         for (int pictures : {0, 1, 7}) {
             VideoOptions options = small_film();
@@ -360,10 +361,8 @@ TEST(Film, SaysSoAndLeavesNothingWhenTheDiskIsFull) {
 // The session of the encoder is open when the thread that feeds it cannot start.
 TEST(Film, WithoutAThreadForTheEncoderSaysSoAndClosesWhatIsOpen) {
     constexpr int kNoLimit = 77;
-    const std::pair<const char*, Codec> kinds[] = {{"a.mkv", Codec::ffv1},
-                                                   {"a.mp4", Codec::h264},
-                                                   {"a.webm", Codec::vp9},
-                                                   {"a.mov", Codec::prores}};
+    const std::pair<const char*, Codec> kinds[] = {
+        {"a.mkv", Codec::ffv1}, {"a.mp4", Codec::h264}, {"a.webm", Codec::vp9}, {"a.mov", Codec::prores}};
     for (const auto& [file, codec] : kinds) {
         Scratch scratch;
         std::filesystem::permissions(scratch.path(), std::filesystem::perms::all);

@@ -142,9 +142,9 @@ TEST(Lang, LeavesNoEnglishWordInTheParameters) {
     };
     std::vector<sim::Problem> problems(1);
     const auto more = [&](auto change) { change(problems.emplace_back()); };
-    for (const sim::Drive& drive : std::initializer_list<sim::Drive>{
-             sim::ConstantTorque{2}, sim::HarmonicTorque{1, 5}, sim::ConstantSpeed{0}, sim::ConstantSpeed{3},
-             sim::SpinUp{3, 2}})
+    for (const sim::Drive& drive :
+         std::initializer_list<sim::Drive>{sim::ConstantTorque{2}, sim::HarmonicTorque{1, 5}, sim::ConstantSpeed{0},
+                                           sim::ConstantSpeed{3}, sim::SpinUp{3, 2}})
         more([&](sim::Problem& p) { p.hub.drive = drive; });
     for (const sim::ModelKind model : {sim::ModelKind::rigid, sim::ModelKind::zeroth_order, sim::ModelKind::first_order,
                                        sim::ModelKind::second_order, sim::ModelKind::exact, sim::ModelKind::paper})

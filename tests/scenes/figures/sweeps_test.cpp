@@ -412,7 +412,9 @@ TEST(Diagram, IsAFileWithItsCaption) {
         ASSERT_EQ(done.code, 0) << done.err;
         EXPECT_GT(testing::slurp(folder / (std::string("d.") + ending)).size(), 3000u);
     }
-    EXPECT_THAT(testing::slurp(folder / "c.txt"), HasSubstr("Bifurcation diagram over cam.speed. Parameters in SI units: beam.model = rigid, contact.model = "));
+    EXPECT_THAT(
+        testing::slurp(folder / "c.txt"),
+        HasSubstr("Bifurcation diagram over cam.speed. Parameters in SI units: beam.model = rigid, contact.model = "));
 }
 
 TEST(Diagram, AndTheSamplesAreOutputsOfAScene) {

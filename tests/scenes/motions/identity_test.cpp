@@ -235,8 +235,7 @@ bool shows(const Scene& scene, std::size_t output, const Schema::Leaf& leaf) {
     const Output& any = scene.outputs[output];
     const auto* diagram = std::get_if<FigureOutput>(&any);
     const bool data = !diagram && !std::holds_alternative<PictureOutput>(any);
-    const bool of_sweep =
-        std::holds_alternative<SweepOutput>(any) || (diagram && diagram->figure == "bifurcation");
+    const bool of_sweep = std::holds_alternative<SweepOutput>(any) || (diagram && diagram->figure == "bifurcation");
     if (place.starts_with("/data/"))
         return std::holds_alternative<FigureOutput>(any) || std::holds_alternative<SummaryOutput>(any) ||
                std::holds_alternative<PictureOutput>(any);

@@ -188,7 +188,8 @@ TEST(Films, APartThatBeginsAtTheEndIsRejected) {
     const Reading figure = testing::read(
         R"({"time": {"end": 0.1}, "outputs": [{"type": "figure", "figure": "kymograph", "from": "last"}]})");
     EXPECT_FALSE(figure.scene.has_value());
-    const Reading after = testing::read(R"({"time": {"end": 0.1}, "outputs": [{"type": "video", "from": "last", "to": 0.2}]})");
+    const Reading after =
+        testing::read(R"({"time": {"end": 0.1}, "outputs": [{"type": "video", "from": "last", "to": 0.2}]})");
     ASSERT_TRUE(after.scene.has_value());
     EXPECT_EQ(std::get<PictureOutput>(after.scene->outputs[0]).span.from, 0.1);
     const Reading strobe = testing::read(
