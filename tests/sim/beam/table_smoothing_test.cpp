@@ -10,7 +10,7 @@
 namespace beamcam::sim::testing {
 namespace {
 
-constexpr double kStep = 2 * std::numbers::pi / 4096;  // of an encoder with 12 bits
+constexpr double kEncoderStep = 2 * std::numbers::pi / 4096;  // of an encoder with 12 bits
 
 double swing(double t) { return 0.5 * std::sin(2 * std::numbers::pi * t) + 0.1 * t; }
 double swing_acceleration(double t) {
@@ -21,7 +21,7 @@ AngleTable encoded(double rate, double end) {
     AngleTable table;
     for (int k = 0; k <= rate * end; ++k) {
         table.t.push_back(k / rate);
-        table.theta.push_back(kStep * std::round(swing(k / rate) / kStep));
+        table.theta.push_back(kEncoderStep * std::round(swing(k / rate) / kEncoderStep));
     }
     return table;
 }
@@ -33,10 +33,10 @@ double rms(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 TEST(TableSmoothing, FindsTheStepOfAnEncoder) {
-    EXPECT_NEAR(*table_step(encoded(1000, 2).theta), kStep, 1e-12);
+    EXPECT_NEAR(*table_step(encoded(1000, 2).theta), kEncoderStep, 1e-12);
     std::vector<double> rounded = encoded(1000, 2).theta;
     for (double& each : rounded) each = std::round(each * 1e5) / 1e5;  // as text with five digits
-    EXPECT_NEAR(*table_step(rounded), kStep, 1e-6);
+    EXPECT_NEAR(*table_step(rounded), kEncoderStep, 1e-6);
 }
 
 TEST(TableSmoothing, FindsNoStepInAMotionOrInFewPoints) {
@@ -103,7 +103,7 @@ TEST(TableSmoothing, ADriveByAnEncoderHasTheAccelerationOfTheMotion) {
     }
     EXPECT_LT(worst, 0.15 * 2 * std::numbers::pi * std::numbers::pi);
     EXPECT_GT(worst_raw, 1000);
-    EXPECT_LT(off, kStep);
+    EXPECT_LT(off, kEncoderStep);
 }
 
 bool warns(const Problem& p, const char* path) {

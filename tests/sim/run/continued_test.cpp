@@ -11,7 +11,7 @@
 namespace beamcam::sim::testing {
 namespace {
 
-struct Motion {
+struct ContinuedCase {
     const char* name;
     std::function<void(Problem&)> change;
     ModelKind model = ModelKind::first_order;
@@ -31,7 +31,7 @@ void stick(Problem& p) {
     p.cam->speed = 10;
 }
 
-const Motion kMotions[] = {
+const ContinuedCase kContinuedCases[] = {
     {"Falling", [](Problem&) {}},
     {"Rigid", [](Problem& p) { p.cam->speed = 5; }, ModelKind::rigid},
     {"Exact", [](Problem& p) { p.beam.modes = 3; }, ModelKind::exact},
@@ -68,9 +68,9 @@ const Motion kMotions[] = {
      }},
 };
 
-class Continued : public ::testing::TestWithParam<Motion> {};
+class Continued : public ::testing::TestWithParam<ContinuedCase> {};
 
-Problem problem_of(const Motion& motion) {
+Problem problem_of(const ContinuedCase& motion) {
     Problem p;
     p.beam.model = motion.model;
     p.beam.modes = 3;
@@ -125,7 +125,7 @@ TEST_P(Continued, MotionIsTheUncontinuedOne) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Continued, ::testing::ValuesIn(kMotions),
+INSTANTIATE_TEST_SUITE_P(All, Continued, ::testing::ValuesIn(kContinuedCases),
                          [](const auto& each) { return std::string(each.param.name); });
 
 TEST(ContinuedMotion, ContactKeepsItsForceAndFriction) {
