@@ -178,6 +178,7 @@ void SceneRun::write_figure(std::size_t figure) {
 
 void SceneRun::write_pictures(std::size_t picture) {
     const Pictures& p = plan_.pictures[picture];
+    if (p.draw.empty()) return;  // all frames of a sequence are up to date
     stop_if_interrupted();
     warn_of_omissions(p);
     render::FilmSetup setup = film_setup(plan_, picture, scene_, results_);
