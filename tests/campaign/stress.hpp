@@ -72,10 +72,10 @@ inline void long_runs(std::vector<StressCase>& out, bool full) {
         Problem p;  // the default scene for ten minutes
         p.beam.model = ModelKind::rigid;
         p.contact.restitution = 1;
-        out.push_back({"ten minutes, elastic", p, full ? 600 : 60});
+        out.push_back({"ten minutes, elastic", p, full ? 600.0 : 60.0});
         p.beam.model = ModelKind::first_order;
         p.contact.restitution = 0.7;
-        out.push_back({"ten minutes", p, full ? 600 : 10});
+        out.push_back({"ten minutes", p, full ? 600.0 : 10.0});
     }
     {
         Problem p;  // ten thousand impacts and more
@@ -84,11 +84,11 @@ inline void long_runs(std::vector<StressCase>& out, bool full) {
         p.contact.damping = DampingLaw::none;
         p.cam->speed = 0;
         p.initial.angle = touching_angle(p) + 0.005;
-        out.push_back({"10⁴ elastic impacts", p, full ? 1000 : 20});
+        out.push_back({"10⁴ elastic impacts", p, full ? 1000.0 : 20.0});
         p.contact.model = ContactModel::restitution;
-        out.push_back({"10⁴ impulses", p, full ? 1000 : 20});
+        out.push_back({"10⁴ impulses", p, full ? 1000.0 : 20.0});
         p.contact.restitution = 0.999;
-        out.push_back({"chatter of many impulses", p, full ? 300 : 20});
+        out.push_back({"chatter of many impulses", p, full ? 300.0 : 20.0});
     }
     {
         Problem p;  // 10⁵ periods of the first bending mode, undamped, in free flight
