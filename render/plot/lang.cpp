@@ -3,115 +3,22 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 namespace beamcam::render {
 namespace {
 
-// The phrases of figures. {} is a value, {0}, {1} are values by their number.
-constexpr std::pair<std::string_view, std::string_view> kPhrases[] = {
-    // axes
-    {"approach speed", "接近速度"},
-    {"averaged over $t$ / s", "平均时间 $t$ / s"},
-    {"cam phase / turn", "凸轮相位 / 转"},
-    {"coefficient of restitution", "恢复系数"},
-    {"error of {} / rad", "{} 的误差 / rad"},
-    {"horizontal distance $x$ from $O$ / m", "距 $O$ 的水平距离 $x$ / m"},
-    {"impacts", "冲击次数"},
-    {"impacts per period, or per turn of the cam", "每周期（或每转）碰撞次数"},
-    {"largest exponent / s^{−1}", "最大 Lyapunov 指数 / s^{−1}"},
-    {"mean of {}", "平均 {}"},
-    {"phase of the cam", "凸轮相位"},
-    {"run time / ms", "计算时间 / ms"},
-    {"turns of the cam", "凸轮转数"},
-    {"{}, impact $k$", "{}，第 $k$ 次冲击"},
-    {"{}, impact $k$ + 1", "{}，第 $k$ + 1 次冲击"},
-    // legends, marks and titles of panels
-    {"along the rod", "沿杆"},
-    {"as printed", "原文公式"},
-    {"bending and contact", "弯曲与接触能"},
-    {"coinciding", "重合"},
-    {"error, against $N$ = {}", "误差（相对 $N$ = {}）"},
-    {"exact", "精确模型"},
-    {"external work", "外功"},
-    {"first collision", "首次碰撞"},
-    {"first-order", "一阶模型"},
-    {"flexible", "柔性"},
-    {"kinetic", "动能"},
-    {"located", "事件定位"},
-    {"lost", "损失"},
-    {"No samples to draw; motions: {}", "没有可绘制的点；运动：{}"},
-    {"on the beam", "梁上"},
-    {"on the cam", "凸轮上"},
-    {"paper", "论文模型"},
-    {"potential", "重力势能"},
-    {"reference", "参考解"},
-    {"rigid", "刚性"},
-    {"rigid, factor 2", "刚性，2 倍"},
-    {"run time (right)", "计算时间（右）"},
-    {"second-order", "二阶模型"},
-    {"stable", "稳定"},
-    {"sum − work", "总和 − 外功"},
-    {"sweep", "扫描"},
-    {"target", "目标"},
-    {"terms completed", "补全各项"},
-    {"unknown", "未知"},
-    {"unstable", "不稳定"},
-    {"zeroth-order", "零阶模型"},
-    // channels
-    {"Time", "时间"},
-    {"Hub angle", "转角"},
-    {"Hub speed", "角速度"},
-    {"Tip deflection", "末端挠度"},
-    {"Rate of the tip", "末端挠度变化率"},
-    {"Contact force", "接触力"},
-    {"Friction", "摩擦力"},
-    {"Gap", "间隙"},
-    {"Contact point on the beam", "梁上接触点"},
-    {"Contact point on the disc", "圆盘上接触点"},
-    {"Cam angle", "凸轮转角"},
-    {"Modal coordinate", "模态坐标"},
-    {"Rate of a modal coordinate", "模态坐标变化率"},
-    {"Kinetic energy", "动能"},
-    {"Potential energy", "势能"},
-    {"Bending energy", "弯曲能"},
-    {"Energy in the contact", "接触能"},
-    {"Lost in the beam", "结构耗散"},
-    {"Lost in the contact", "接触耗散"},
-    {"Lost to friction", "摩擦耗散"},
-    {"Work of the cam", "凸轮做功"},
-    {"Work of the drive", "驱动做功"},
-    {"Energy residual", "能量残差"},
-    {"Separation", "分离量"},
-    {"Separation, printed form", "分离量（印刷式）"},
-    // motions of sweeps
-    {"aperiodic", "非周期"},
-    {"carried down", "递减延续"},
-    {"carried up", "递增延续"},
-    {"chaotic", "混沌"},
-    {"following", "跟随"},
-    {"over-the-top", "翻越"},
-    {"period {}", "周期 {}"},
-    {"period {} and more", "周期 {} 及以上"},
-    {"period {0} turn{1}, {2:g} impact{3}", "周期 {0} 圈，碰撞 {2:g} 次"},
-    {"periodic", "周期"},
-    {"quasi-periodic", "准周期"},
-    {"random starts", "随机初值"},
-    {"rest", "静止"},
-    {"same start", "相同初值"},
-    {"unsettled", "未定"},
-};
-
 constexpr std::string_view kHole = "{}";  // in a phrase: any text without a separator
 constexpr std::string_view kSeparators[] = {" · ", ", "};
 
-// The phrases of films. The same number of holes in both, in the same order. The first phrase that is the whole text
+// The same number of holes in both, in the same order, or with numbers: {0}, {1}. The first phrase that is the whole text
 // counts.
 struct Phrase {
     std::string_view english, chinese;
 };
-constexpr Phrase kFilmPhrases[] = {
+constexpr Phrase kPhrases[] = {
+    // films
     {"contact force, trace (√ scale)", "接触力（轨迹，√ 标度）"},
     {"Contact close-up", "接触点放大"},
     {"Contact", "接触"},
@@ -166,6 +73,87 @@ constexpr Phrase kFilmPhrases[] = {
     {"beam", "梁"},
     {"cam", "凸轮"},
     {"gap", "间隙"},
+    // axes
+    {"approach speed", "接近速度"},
+    {"averaged over $t$ / s", "平均时间 $t$ / s"},
+    {"cam phase / turn", "凸轮相位 / 转"},
+    {"coefficient of restitution", "恢复系数"},
+    {"error of {} / rad", "{} 的误差 / rad"},
+    {"horizontal distance $x$ from $O$ / m", "距 $O$ 的水平距离 $x$ / m"},
+    {"impacts", "冲击次数"},
+    {"impacts per period, or per turn of the cam", "每周期（或每转）碰撞次数"},
+    {"largest exponent / s^{−1}", "最大 Lyapunov 指数 / s^{−1}"},
+    {"mean of {}", "平均 {}"},
+    {"phase of the cam", "凸轮相位"},
+    {"run time / ms", "计算时间 / ms"},
+    {"turns of the cam", "凸轮转数"},
+    {"{}, impact $k$", "{}，第 $k$ 次冲击"},
+    {"{}, impact $k$ + 1", "{}，第 $k$ + 1 次冲击"},
+    // legends, marks and titles of panels
+    {"along the rod", "沿杆"},
+    {"as printed", "原文公式"},
+    {"bending and contact", "弯曲与接触能"},
+    {"coinciding", "重合"},
+    {"error, against $N$ = {}", "误差（相对 $N$ = {}）"},
+    {"external work", "外功"},
+    {"first collision", "首次碰撞"},
+    {"flexible", "柔性"},
+    {"located", "事件定位"},
+    {"No samples to draw; motions: {}", "没有可绘制的点；运动：{}"},
+    {"on the beam", "梁上"},
+    {"on the cam", "凸轮上"},
+    {"reference", "参考解"},
+    {"rigid, factor 2", "刚性，2 倍"},
+    {"run time (right)", "计算时间（右）"},
+    {"stable", "稳定"},
+    {"sum − work", "总和 − 外功"},
+    {"sweep", "扫描"},
+    {"target", "目标"},
+    {"terms completed", "补全各项"},
+    {"unknown", "未知"},
+    {"unstable", "不稳定"},
+    // channels
+    {"Time", "时间"},
+    {"Hub angle", "转角"},
+    {"Hub speed", "角速度"},
+    {"Tip deflection", "末端挠度"},
+    {"Rate of the tip", "末端挠度变化率"},
+    {"Contact force", "接触力"},
+    {"Friction", "摩擦力"},
+    {"Gap", "间隙"},
+    {"Contact point on the beam", "梁上接触点"},
+    {"Contact point on the disc", "圆盘上接触点"},
+    {"Cam angle", "凸轮转角"},
+    {"Modal coordinate", "模态坐标"},
+    {"Rate of a modal coordinate", "模态坐标变化率"},
+    {"Kinetic energy", "动能"},
+    {"Potential energy", "势能"},
+    {"Bending energy", "弯曲能"},
+    {"Energy in the contact", "接触能"},
+    {"Lost in the beam", "结构耗散"},
+    {"Lost in the contact", "接触耗散"},
+    {"Lost to friction", "摩擦耗散"},
+    {"Work of the cam", "凸轮做功"},
+    {"Work of the drive", "驱动做功"},
+    {"Energy residual", "能量残差"},
+    {"Separation", "分离量"},
+    {"Separation, printed form", "分离量（印刷式）"},
+    // motions of sweeps
+    {"aperiodic", "非周期"},
+    {"carried down", "递减延续"},
+    {"carried up", "递增延续"},
+    {"chaotic", "混沌"},
+    {"following", "跟随"},
+    {"over-the-top", "翻越"},
+    {"period {}", "周期 {}"},
+    {"period {} and more", "周期 {} 及以上"},
+    {"period {0} turn{1}, {2:g} impact{3}", "周期 {0} 圈，碰撞 {2:g} 次"},
+    {"periodic", "周期"},
+    {"quasi-periodic", "准周期"},
+    {"random starts", "随机初值"},
+    {"rest", "静止"},
+    {"same start", "相同初值"},
+    {"unsettled", "未定"},
 };
 
 // The texts in the holes if the phrase is the whole text.
@@ -188,7 +176,7 @@ std::optional<std::vector<std::string_view>> match(std::string_view phrase, std:
 }
 
 std::string in_chinese(std::string_view text) {
-    for (const auto& [english, chinese] : kFilmPhrases) {
+    for (const auto& [english, chinese] : kPhrases) {
         const auto found = match(english, text);
         if (!found) continue;
         std::string out(chinese);
@@ -212,8 +200,8 @@ std::string in_chinese(std::string_view text) {
 
 std::string_view translated(Lang lang, std::string_view english) {
     if (lang == Lang::en) return english;
-    const auto found = std::ranges::find(kPhrases, english, &std::pair<std::string_view, std::string_view>::first);
-    return found == std::end(kPhrases) ? english : found->second;
+    const auto found = std::ranges::find(kPhrases, english, &Phrase::english);
+    return found == std::end(kPhrases) ? english : found->chinese;
 }
 
 std::string in(Lang lang, std::string text) { return lang == Lang::en ? text : in_chinese(text); }
