@@ -73,6 +73,15 @@ constexpr Phrase kPhrases[] = {
     {"beam", "梁"},
     {"cam", "凸轮"},
     {"gap", "间隙"},
+    // the page
+    {"The mechanism", "机构"},
+    {"Instant", "时刻"},
+    {"Play", "播放"},
+    {"Pause", "暂停"},
+    {"Space", "空格键"},
+    {"Speed", "速度"},
+    {"Up and Down", "上下方向键"},
+    {"deflection", "挠度"},
     // axes
     {"approach speed", "接近速度"},
     {"averaged over $t$ / s", "平均时间 $t$ / s"},
