@@ -226,10 +226,11 @@ std::string parse_seeds(std::string_view text, SweepSeeds& seeds) {
 std::string read_column(SweptKey& over, const std::filesystem::path& folder, const sim::Problem& problem) {
     const auto key = sim::number_key(problem, over.key);
     FileColumn read = read_file_column(folder / over.file, over.column, key ? key->dimension : dim::kNone, true);
+    if (!read.problem.empty()) return read.problem;
     over.values = std::move(read.values);
     over.file.clear();
     over.column.clear();
-    return read.problem;
+    return "";
 }
 
 std::string problem_with_number_key(const sim::Problem& problem, const std::string& key) {

@@ -26,9 +26,7 @@ TEST(SweepKeys, AreReadWrittenAndReadAgain) {
               "seed": ["carry-up", "carry-down"]})",
           std::string(R"({"over": [{"key": "cam.speed", "from": 1, "to": 100, "count": 3, "spacing": "log"}],
               "sample": {"section": "theta_dot", "at": 0.5, "direction": "falling"},
-              "seed": {"random": 8, "key": [{"key": "initial.angle", "from": 0.5, "to": 1}]}})"),
-          std::string(R"({"over": [{"key": "cam.speed", "file": "a.csv", "column": "w"}],
-              "sample": {"section": "cam_angle", "at": 1}, "seed": "carry-down"})")}) {
+              "seed": {"random": 8, "key": [{"key": "initial.angle", "from": 0.5, "to": 1}]}})")}) {
         const Reading reading = read(scene_with(text));
         ASSERT_TRUE(reading.scene && reading.scene->sweep) << reading.report();
         const Reading again = read(to_json(*reading.scene));
