@@ -46,27 +46,16 @@ struct View {
     Lang lang = Lang::en;  // language of the picture's own text
 };
 
-// Poses stored outside memory. Several threads read it concurrently.
-class PoseStore {
-  public:
-    virtual ~PoseStore() = default;
-    virtual std::size_t size() const = 0;
-    virtual double time(std::size_t frame) const = 0;  // [s]
-    virtual sim::Pose pose(std::size_t frame) const = 0;
-};
-
 // One motion of one mechanism as a film shows it.
 struct Motion {
     sim::Problem problem;
-    std::string label;                        // plain text; shown if the film has several motions
-    std::vector<sim::Pose> poses;             // of each frame, not exaggerated, times not decreasing, at least one
-    std::shared_ptr<const PoseStore> stored;  // replaces `poses` if set
+    std::string label;             // plain text; shown if the film has several motions
+    std::vector<sim::Pose> poses;  // of each frame, not exaggerated, times not decreasing, at least one
     // Poses over the time that the film shows, in any order. Scales and camera are chosen from them, so that they do
-    // not depend on the instants of the frames. Absent: the frames are used.
-    std::shared_ptr<const PoseStore> survey;
-    // Poses between frames that are far apart, for the path of the tip, times increasing; null: none.
-    std::shared_ptr<const PoseStore> path;
-    sim::Table chart;  // t and the channels that the panels show, times increasing; any number of rows
+    // not depend on the instants of the frames. Empty: the frames are used.
+    std::vector<sim::Pose> survey;
+    std::vector<sim::Pose> path;  // between frames that are far apart, for the path of the tip, times increasing
+    sim::Table chart;             // t and the channels that the panels show, times increasing; any number of rows
     sim::Table trace;  // t, contact_x, contact_s, contact_force, finely sampled; rows with force > 0 are dots
     std::vector<sim::Impact> impacts;
     double end = std::numeric_limits<double>::infinity();  // later impacts are not among them [s]
@@ -75,11 +64,11 @@ struct Motion {
     bool is_reliable(double t) const {
         return std::ranges::none_of(unreliable, [t](const Range& r) { return t > r.low && t <= r.high; });
     }
-    std::size_t frames() const { return stored ? stored->size() : poses.size(); }
-    double time(std::size_t frame) const { return stored ? stored->time(frame) : poses[frame].t; }
-    sim::Pose pose(std::size_t frame) const { return stored ? stored->pose(frame) : poses[frame]; }
-    std::size_t surveyed() const { return survey ? survey->size() : frames(); }
-    sim::Pose surveyed(std::size_t k) const { return survey ? survey->pose(k) : pose(k); }
+    std::size_t frames() const { return poses.size(); }
+    double time(std::size_t frame) const { return poses[frame].t; }
+    const sim::Pose& pose(std::size_t frame) const { return poses[frame]; }
+    std::size_t surveyed() const { return survey.empty() ? frames() : survey.size(); }
+    const sim::Pose& surveyed(std::size_t k) const { return survey.empty() ? pose(k) : survey[k]; }
 };
 
 // Measured or external data: drawn over the charts of their channels, and as a straight beam if they contain θ.

@@ -56,19 +56,12 @@ static void add_measured(const MechanismView& at, const Pose& pose, const DrawnB
 
 // Between the previous frame and this one.
 void MechanismPanel::add_tips_before(int frame) {
-    const PoseStore* path = at_.motion().path.get();
-    if (!path || frame == 0) return;
+    if (frame == 0) return;
+    const std::vector<sim::Pose>& path = at_.motion().path;
     const double from = at_.context.at(frame - 1), to = at_.context.at(frame);
-    std::size_t first = 0;
-    for (std::size_t end = path->size(); first < end;) {
-        const std::size_t middle = (first + end) / 2;
-        if (path->time(middle) <= from)
-            first = middle + 1;
-        else
-            end = middle;
-    }
-    for (std::size_t i = first; i < path->size() && path->time(i) < to; ++i)
-        tip_path_.add_between_frames(knot_of(at_, path->pose(i)));
+    for (auto pose = std::ranges::upper_bound(path, from, {}, &sim::Pose::t); pose != path.end() && pose->t < to;
+         ++pose)
+        tip_path_.add_between_frames(knot_of(at_, *pose));
 }
 
 LabelNeeds MechanismPanel::add_frames(SweptRegion& swept, SweptRegion& in_contact, std::vector<Followed>& followed) {

@@ -217,7 +217,7 @@ void FilmContext::choose_scales() {
                                           one.problem, one.surveyed(), [&](std::size_t k) { return one.surveyed(k); },
                                           setup->view.exaggeration));
             // The survey may miss an instant that requires a smaller factor; frames must not.
-            if (one.survey)
+            if (!one.survey.empty())
                 factor = clear_factor(
                     one.problem, one.frames(), [&](std::size_t k) { return one.pose(k); }, factor);
         }

@@ -51,10 +51,10 @@ void TipPath::add_between_frames(const Knot& knot) { knots_.add(knot); }
 bool TipPath::closes(const MechanismView& home) const {
     constexpr double kSamePlace = 1, kSameSpeed = 1e-3;  // [px], share of the largest speed
     const Motion& motion = home.motion();
-    if (!motion.survey || motion.surveyed() < 2 || frames_.size() < 3) return false;
+    if (motion.survey.size() < 2 || frames_.size() < 3) return false;
     std::size_t latest = 0;  // not the last: samples of collisions come after it
     for (std::size_t k = 0; k < motion.surveyed(); ++k)
-        if (motion.survey->time(k) > motion.survey->time(latest)) latest = k;
+        if (motion.survey[k].t > motion.survey[latest].t) latest = k;
     const sim::Pose first = motion.pose(0), end = motion.surveyed(latest);
     const double step = motion.time(frames_.size() - 1) - motion.time(frames_.size() - 2);
     const bool is_next = std::abs(end.t - motion.time(frames_.size() - 1) - step) < 0.5 * step;

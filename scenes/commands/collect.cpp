@@ -23,7 +23,7 @@ void act(const CollectArguments& args) {
     file_list.require_replaceable(args.file);
     CollectedSweep all = collect({args.parts.begin(), args.parts.end()});
     all.scene.set_outputs({SweepOutput{args.file}});
-    output::Origin origin{inputs_key(all.scene, 0, 0, ""), std::string(kVersion), metadata_json(all.scene)};
+    output::Origin origin{inputs_key(all.scene, 0), std::string(kVersion), metadata_json(all.scene)};
     output::write_sweep(file_list.target(args.file, std::move(origin)), all.data);
     inform(args.common, fmt::format("wrote {} ({} of {})", args.file, counted(all.data.points(), "point"),
                                     counted(args.parts.size(), "part")));

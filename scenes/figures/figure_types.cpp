@@ -13,16 +13,16 @@
 namespace beamcam::scenes {
 
 // Each is in its file of this folder.
-extern const FigureType kSeries, kSchematic, kFreeFall, kDeflection, kDistance, kContactPlaces, kKymograph, kSpectrogram,
-    kStrobe, kImpactMaps, kImpactHistograms, kBifurcation, kBasins, kMap, kPoincare, kImpactMap;
+extern const FigureType kSeries, kSchematic, kFreeFall, kDeflection, kDistance, kContactPlaces, kKymograph,
+    kSpectrogram, kStrobe, kImpactMaps, kImpactHistograms, kBifurcation, kBasins, kMap, kPoincare, kImpactMap;
 
 namespace {
 
 // Made on first use: the types are initialized before.
 const std::vector<FigureType>& table() {
     static const std::vector<FigureType> all{
-        kSeries,      kSchematic, kFreeFall,   kDeflection,       kDistance,    kContactPlaces, kKymograph, kSpectrogram,
-        kStrobe,      kImpactMaps, kImpactHistograms, kBifurcation, kBasins,    kMap,           kPoincare,  kImpactMap};
+        kSeries, kSchematic,  kFreeFall,         kDeflection,  kDistance, kContactPlaces, kKymograph, kSpectrogram,
+        kStrobe, kImpactMaps, kImpactHistograms, kBifurcation, kBasins,   kMap,           kPoincare,  kImpactMap};
     return all;
 }
 
@@ -45,7 +45,6 @@ static void shorten_times(std::vector<Panel>& panels) {
 }
 
 FigureMaker FigureType::prepare(const Scene& scene, const FigureOutput& how, Studies& studies) const {
-    studies.name_figure(name);
     return [draw = of_sweep() ? swept_figure(*this, how) : maker(scene, how, studies),
             subject = subject_of(scene, how.lang), called = std::string(name), chosen = how.title,
             usual = title](const Results& results) {
@@ -104,7 +103,7 @@ std::optional<std::string> refusal_of(const FigureType& type, const Scene& scene
     if (auto why = type.refusal(scene)) return why;
     Studies studies;
     type.prepare(scene, {}, studies);
-    for (const Study& study : studies.take())
+    for (const MotionRequest& study : studies.take())
         for (const sim::Issue& finding : sim::validate(study.problem))
             if (finding.fatal)
                 return fmt::format("it computes a variant of the scene too, in which {}: {}", finding.path,

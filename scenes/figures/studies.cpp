@@ -19,14 +19,11 @@ std::vector<double> instants(const Instants& grid) {
 
 std::size_t Studies::of(const sim::Problem& problem, double end_time) {
     std::string key = motion_key(problem);
-    const auto found = std::ranges::find(all_, key, &Study::key);
+    const auto found = std::ranges::find(all_, key, &MotionRequest::key);
     const auto index = static_cast<std::size_t>(found - all_.begin());
     if (found == all_.end()) all_.push_back({problem, std::move(key)});
-    Study& study = all_[index];
-    if (study.label.empty() || end_time > study.request.end_time) {
-        study.request.end_time = std::max(end_time, study.request.end_time);
-        study.label = figure_;
-    }
+    sim::Request& request = all_[index].request;
+    request.end_time = std::max(end_time, request.end_time);
     return index;
 }
 

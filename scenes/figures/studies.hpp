@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/run/simulate.hpp"
+#include "scenes/motions/motion_request.hpp"
 
 namespace beamcam::output {
 struct SweepData;
@@ -14,15 +14,6 @@ struct SweepData;
 namespace beamcam::scenes {
 
 struct Scene;
-
-// A motion that an output needs, and what it requests of it.
-struct Study {
-    sim::Problem problem;
-    std::string key;  // motion_key(problem)
-    sim::Request request = {};
-    std::string label = {};  // the figure that needs the longest run; of a compared motion its label
-    bool of_scene = false;   // the scene's own physics; for the plan
-};
 
 // Equally spaced instants, both ends included.
 struct Instants {
@@ -34,8 +25,6 @@ std::vector<double> instants(const Instants& grid);
 
 class Studies {
   public:
-    // The figure that the next studies are for.
-    void name_figure(std::string name) { figure_ = std::move(name); }
     // The study of this motion, at least until `end_time` [s]. Apexes and zero crossings of θ only where `apexes` and
     // `zero_crossings` are called.
     std::size_t of(const sim::Problem& problem, double end_time);
@@ -53,11 +42,10 @@ class Studies {
     void horizon(std::size_t study) { request(study).horizon = true; }
 
     sim::Request& request(std::size_t i) { return all_[i].request; }
-    std::vector<Study> take() { return std::move(all_); }
+    std::vector<MotionRequest> take() { return std::move(all_); }
 
   private:
-    std::string figure_;
-    std::vector<Study> all_;
+    std::vector<MotionRequest> all_;
     std::vector<std::vector<std::pair<Instants, std::size_t>>> grids_;
 };
 

@@ -1,8 +1,11 @@
 // Outputs with numbers of the motion or of the sweep: "trajectory", "shapes", "impacts", "state", "summary", "sweep".
+#include "scenes/outputs/data_outputs.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <iostream>
+#include <stdexcept>
 
 #include "output/data/records.hpp"
 #include "output/data/sweep_data.hpp"
@@ -44,28 +47,28 @@ std::string write_table(const DataSource& from, const sim::Table& table) {
 
 }  // namespace
 
-void TrajectoryOutput::plan(Planner& planner, std::size_t output) const {
+void plan(Planner& planner, const TrajectoryOutput& table, const ResolvedOutput& resolved) {
     const Scene& scene = planner.scene();
-    std::vector<sim::Channel> columns = channels.empty() ? all_channels(scene.problem) : channels;
+    std::vector<sim::Channel> columns = table.channels.empty() ? all_channels(scene.problem) : table.channels;
     const sim::Channel t{sim::ChannelKind::t, 0};
     if (std::ranges::find(columns, t) == columns.end()) columns.insert(columns.begin(), t);
     constexpr int kPieces = 1000;    // of an adaptive table, each of which is halved where the motion needs it
     constexpr double kStray = 2e-3;  // of a channel's range: two pixels of a curve that is 1000 pixels high
-    const bool adaptive = times.empty() && !rate;
+    const bool adaptive = table.times.empty() && !table.rate;
     std::vector<double> instants =
-        times.empty() ? rows(0, scene.end_time, rate.value_or(kPieces / scene.end_time)) : times;
-    planner.simulate_until(*std::ranges::max_element(instants));
-
-    DataFile data{output, file, kType, {}};
+        table.times.empty() ? rows(0, scene.end_time, table.rate.value_or(kPieces / scene.end_time)) : table.times;
+    sim::Request& request = planner.run_until(*std::ranges::max_element(instants));
+    DataFile data{resolved.index, table.file};
     data.content = adaptive ? "rows that follow the motion" : counted(instants.size(), "row");
-    const std::size_t index = planner.add_table(std::move(instants), std::move(columns));
-    sim::TableRequest& table = planner.request().tables[index];
-    table.adaptive = adaptive;
-    table.stray = kStray;
-    if (times.empty()) table.rate = rate;
-    data.table = index;
-    data.write = [index](const DataSource& from) { return write_table(from, from.run.tables[index]); };
+    data.tables = {planner.add_table(std::move(instants), std::move(columns))};
+    request.tables.back().adaptive = adaptive;
+    request.tables.back().stray = kStray;
+    if (table.times.empty()) request.tables.back().rate = table.rate;
     planner.add(std::move(data));
+}
+
+static std::string write(const TrajectoryOutput&, const DataFile& data, const DataSource& from) {
+    return write_table(from, from.run.tables[data.tables.front()]);
 }
 
 // ---- "shapes": the deflection along the beam in time, as CSV or NPZ: t, x, v in rows.
@@ -78,43 +81,44 @@ void ShapesOutput::visit(SceneVisitor& v) {
     v.check([this](ObjectReader& r) { limit_rows(r, rate, stations); });
 }
 
-void ShapesOutput::plan(Planner& planner, std::size_t output) const {
-    const Scene& scene = planner.scene();
-    std::vector<double> instants = times.empty() ? rows(0, scene.end_time, rate) : times;
-    planner.simulate_until(*std::ranges::max_element(instants));
-    std::vector<sim::PoseRequest>& poses = planner.request().poses;
-    poses.push_back({.times = std::move(instants), .stations = stations});
-    DataFile data{output, file, kType, {}};
-    data.content = fmt::format("{} points at {} times", stations, poses.back().times.size());
-    data.write = [index = poses.size() - 1](const DataSource& from) {
-        output::ColumnTable table{{{"t"}, {"x"}, {"v"}}};
-        for (const sim::Pose& pose : from.run.poses[index]) {
-            const std::vector<double> v = deflection(pose);
-            for (std::size_t k = 0; k < v.size(); ++k) {
-                table.columns[0].values.push_back(pose.t);
-                table.columns[1].values.push_back(from.problem.beam.length * static_cast<double>(k) /
-                                                  static_cast<double>(v.size() - 1));
-                table.columns[2].values.push_back(v[k]);
-            }
-        }
-        output::write_table(*from.file, table);
-        return counted(table.rows(), "row");
-    };
+void plan(Planner& planner, const ShapesOutput& shapes, const ResolvedOutput& resolved) {
+    std::vector<double> instants = shapes.times.empty() ? rows(0, planner.scene().end_time, shapes.rate) : shapes.times;
+    std::vector<sim::PoseRequest>& poses = planner.run_until(*std::ranges::max_element(instants)).poses;
+    DataFile data{resolved.index, shapes.file};
+    data.content = fmt::format("{} points at {} times", shapes.stations, instants.size());
+    data.index = poses.size();
+    poses.push_back({.times = std::move(instants), .stations = shapes.stations});
     planner.add(std::move(data));
+}
+
+static std::string write(const ShapesOutput&, const DataFile& data, const DataSource& from) {
+    output::ColumnTable table{{{"t"}, {"x"}, {"v"}}};
+    for (const sim::Pose& pose : from.run.poses[data.index]) {
+        const std::vector<double> v = deflection(pose);
+        for (std::size_t k = 0; k < v.size(); ++k) {
+            table.columns[0].values.push_back(pose.t);
+            table.columns[1].values.push_back(from.scene.problem.beam.length * static_cast<double>(k) /
+                                              static_cast<double>(v.size() - 1));
+            table.columns[2].values.push_back(v[k]);
+        }
+    }
+    output::write_table(*from.file, table);
+    return counted(table.rows(), "row");
 }
 
 // ---- "impacts": all impacts and collisions, as JSON or CSV.
 
 void ImpactsOutput::visit(SceneVisitor& v) { visit_file(v, file, {".json", ".csv"}, "-impacts.json"); }
 
-void ImpactsOutput::plan(Planner& planner, std::size_t output) const {
-    const auto write = [](const DataSource& from) {
-        from.file ? output::write_impacts(*from.file, from.run) : output::print_json(output::impacts_json(from.run));
-        return fmt::format("{} in {}", counted(from.run.impacts.size(), "impact"),
-                           counted(from.run.collisions.size(), "collision"));
-    };
-    planner.simulate_until(planner.run_end());
-    planner.add(DataFile{.output = output, .file = file, .type = kType, .write = write, .holds_events = true});
+void plan(Planner& planner, const ImpactsOutput& impacts, const ResolvedOutput& resolved) {
+    planner.run_until(run_end(planner.scene()));
+    planner.add(DataFile{resolved.index, impacts.file});
+}
+
+static std::string write(const ImpactsOutput&, const DataFile&, const DataSource& from) {
+    from.file ? output::write_impacts(*from.file, from.run) : output::print_json(output::impacts_json(from.run));
+    return fmt::format("{} in {}", counted(from.run.impacts.size(), "impact"),
+                       counted(from.run.collisions.size(), "collision"));
 }
 
 // ---- "state": a scene that continues the motion from an instant.
@@ -124,20 +128,21 @@ void StateOutput::visit(SceneVisitor& v) {
     v.number("at", at, sim::dimension::kTime, kFromStart, "The instant; it is the time 0 of the scene in the file.");
 }
 
-void StateOutput::plan(Planner& planner, std::size_t output) const {
+void plan(Planner& planner, const StateOutput& state, const ResolvedOutput& resolved) {
+    std::vector<double>& states = planner.run_until(state.at).states;
+    DataFile data{resolved.index, state.file};
+    data.index = states.size();
+    states.push_back(state.at);
+    planner.add(std::move(data));
+}
+
+static std::string write(const StateOutput& state, const DataFile& data, const DataSource& from) {
     Scene next;
-    next.end_time = planner.scene().end_time > at ? planner.scene().end_time - at : planner.scene().end_time;
-    std::vector<double>& states = planner.request().states;
-    states.push_back(at);
-    const auto write = [next, index = states.size() - 1, at = at](const DataSource& from) {
-        Scene scene = next;
-        scene.problem = from.run.states[index].value();
-        const std::string json = to_json(scene);
-        from.file ? output::write_file(*from.file, json) : output::print_json(json);
-        return fmt::format("state at {:g} s", at);
-    };
-    planner.simulate_until(at);
-    planner.add(DataFile{.output = output, .file = file, .type = kType, .write = write});
+    next.end_time = from.scene.end_time > state.at ? from.scene.end_time - state.at : from.scene.end_time;
+    next.problem = from.run.states[data.index].value();
+    const std::string json = to_json(next);
+    from.file ? output::write_file(*from.file, json) : output::print_json(json);
+    return fmt::format("state at {:g} s", state.at);
 }
 
 // ---- "summary": counts, extrema, energy balance and warnings of the run, and the work for all outputs.
@@ -149,31 +154,34 @@ void SummaryOutput::visit(SceneVisitor& v) {
               "another method.");
 }
 
-void SummaryOutput::plan(Planner& planner, std::size_t output) const {
-    std::vector<std::pair<Measurement, std::size_t>> data;  // with their tables
-    for (const Measurement& each : planner.scene().data) {
-        data.emplace_back(each.within(0, planner.run_end()), 0);
-        sim::TableRequest table = data.back().first.request();
-        data.back().second = planner.add_table(std::move(table.times), std::move(table.channels));
-        planner.require_horizon();
+void plan(Planner& planner, const SummaryOutput& summary, const ResolvedOutput& resolved) {
+    const Scene& scene = planner.scene();
+    const double end = run_end(scene);
+    sim::Request& request = planner.run_until(end);
+    DataFile data{resolved.index, summary.file};
+    for (const Measurement& each : scene.data) {
+        sim::TableRequest table = each.within(0, end).request();
+        data.tables.push_back(planner.add_table(std::move(table.times), std::move(table.channels)));
     }
-    const auto write = [data](const DataSource& from) {
-        std::vector<output::Agreement> all;
-        for (const auto& [measurement, table] : data)
-            for (output::Agreement& each : agreements(measurement, from.run.tables[table], from.run))
-                all.push_back(std::move(each));
-        const std::string json = output::summary_json(from.problem, from.run, from.request.extrema, &from.work, all);
-        from.file ? output::write_file(*from.file, json) : output::print_json(json);
-        return from.run.reproducibility;
-    };
-    planner.simulate_until(planner.run_end());
-    planner.request().zero_crossings = true;
-    if (planner.request().extrema.empty())
-        for (const sim::Channel& channel : all_channels(planner.scene().problem))
+    request.zero_crossings = true;
+    request.horizon = request.horizon || summary.horizon || !scene.data.empty();
+    if (request.extrema.empty())
+        for (const sim::Channel& channel : all_channels(scene.problem))
             if (channel.kind != sim::ChannelKind::t && channel.kind != sim::ChannelKind::q_dot)
-                planner.request().extrema.push_back(channel);
-    if (horizon) planner.require_horizon();
-    planner.add(DataFile{.output = output, .file = file, .type = kType, .write = write, .reports_work = true});
+                request.extrema.push_back(channel);
+    planner.add(std::move(data));
+}
+
+static std::string write(const SummaryOutput&, const DataFile& data, const DataSource& from) {
+    const Scene& scene = from.scene;
+    std::vector<output::Agreement> all;
+    for (std::size_t i = 0; i < scene.data.size(); ++i)
+        for (output::Agreement& each :
+             agreements(scene.data[i].within(0, run_end(scene)), from.run.tables[data.tables[i]], from.run))
+            all.push_back(std::move(each));
+    const std::string json = output::summary_json(from.scene.problem, from.run, from.request.extrema, &from.work, all);
+    from.file ? output::write_file(*from.file, json) : output::print_json(json);
+    return from.run.reproducibility;
 }
 
 // ---- "sweep": the samples of all points of the scene's sweep, as NetCDF-4, CSV or NPZ.
@@ -186,23 +194,37 @@ void SweepOutput::visit(SceneVisitor& v) {
     });
 }
 
-void SweepOutput::plan(Planner& planner, std::size_t output) const {
-    DataFile data{output, file, kType, {}};
+void plan(Planner& planner, const SweepOutput& sweep, const ResolvedOutput& resolved) {
+    DataFile data{resolved.index, sweep.file};
     if (const Shard& shard = planner.shard(); !shard.whole()) {
-        data.file = part_file(file, shard);
+        data.file = part_file(sweep.file, shard);
         data.part = shard.text();
     }
-    data.write = [](const DataSource& from) {
-        if (from.file) {
-            output::write_sweep(*from.file, *from.sweep);
-        } else {
-            output::write_sweep_csv(std::cout, *from.sweep);
-            output::flush_data();
-        }
-        return counted(from.sweep->rows_in_all(), "row");
-    };
     planner.require_sweep(data.file);
     planner.add(std::move(data));
+}
+
+static std::string write(const SweepOutput&, const DataFile&, const DataSource& from) {
+    if (from.file) {
+        output::write_sweep(*from.file, *from.sweep);
+    } else {
+        output::write_sweep_csv(std::cout, *from.sweep);
+        output::flush_data();
+    }
+    return counted(from.sweep->rows_in_all(), "row");
+}
+
+// ---- all types -----------------------------------------------------------------------------------
+
+std::string write_data(const DataFile& data, const DataSource& from) {
+    return std::visit(
+        [&](const auto& each) -> std::string {
+            if constexpr (requires { write(each, data, from); })
+                return write(each, data, from);
+            else
+                throw std::logic_error("an output without numbers");
+        },
+        from.scene.outputs[data.output]);
 }
 
 }  // namespace beamcam::scenes

@@ -9,7 +9,6 @@
 #include "scenes/format/checks.hpp"
 #include "scenes/format/presets.hpp"
 #include "scenes/format/value_formats.hpp"
-#include "scenes/plan/output_times.hpp"
 #include "scenes/plan/planner.hpp"
 
 namespace beamcam::scenes {
@@ -182,23 +181,20 @@ void FigureOutput::visit(SceneVisitor& v) {
     v.check([this](ObjectReader& r) { check_figure(r, *this); });
 }
 
-void FigureOutput::plan(Planner& planner, std::size_t output) const {
-    FigureFile planned{.output = output, .file = file, .figure = figure};
-    planned.times_known = !series.needs_events();
-    FigureOutput how = *this;
-    if (planned.times_known) {
-        how = with_event_times(std::move(how), {}, planner.scene().end_time);
-    } else {  // the events can be anywhere in the scene
-        planned.ends_at_event = series.at || series.to_event;
-        planner.find_events(series.to.value_or(planner.scene().end_time), !planned.ends_at_event);
-        how = without_events(std::move(how));
-    }
-    prepare_figure(planned, planner.scene(), how);
-    if (figure_type(figure)->of_sweep()) {
-        if (!planner.shard().whole()) return;  // a part of a sweep has no diagram
-        planner.require_sweep(file);
-    }
-    planner.add(std::move(planned));
+void plan(Planner& planner, const FigureOutput& how, const ResolvedOutput& resolved) {
+    const FigureType& type = *figure_type(how.figure);
+    if (type.of_sweep() && !planner.shard().whole()) return;  // a part of a sweep has no diagram
+    if (type.of_sweep()) planner.require_sweep(how.file);
+    Studies studies;
+    FigureMaker maker = type.prepare(planner.scene(), how, studies);
+    planner.add(
+        {resolved.index, how.file, how.figure, {}},
+        [maker = std::move(maker), height = how.series.height](const Results& results) {
+            render::figure::Figure made = maker(results);
+            if (height) made.height = *height * 1e3;
+            return made;
+        },
+        studies.take());
 }
 
 }  // namespace beamcam::scenes

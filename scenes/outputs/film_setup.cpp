@@ -21,24 +21,17 @@ std::string beyond_model(const sim::Problem& problem) {
     return fmt::format(" · bends beyond {}", sim::name(problem.beam.model));
 }
 
-std::shared_ptr<PoseSpool> stored(const std::vector<sim::Pose>& held, const sim::PoseRequest& request) {
-    auto poses = std::make_shared<PoseSpool>(request);
-    for (std::size_t row = 0; row < held.size(); ++row) poses->put(row, held[row]);
-    return poses;
-}
-
-render::Motion motion_of(const Pictures& p, const Study& study, const StoredPoses& poses, sim::Result& result) {
+render::Motion motion_of(const Pictures& p, const MotionRequest& shown, sim::Result& result) {
     render::Motion motion;
-    motion.problem = study.problem;
-    motion.label = study.label;
+    motion.problem = shown.problem;
+    motion.label = shown.label;
     motion.poses = std::move(result.poses[kFramePoses]);
+    motion.survey = std::move(result.poses[kSurveyPoses]);
+    motion.path = std::move(result.poses[kPathPoses]);
     motion.chart = std::move(result.tables[kChartTable]);
-    if (study.problem.cam) motion.trace = std::move(result.tables[kTraceTable]);
+    if (shown.problem.cam) motion.trace = std::move(result.tables[kTraceTable]);
     motion.impacts = result.impacts;
     motion.end = result.end_time;
-    motion.stored = poses.frames;
-    motion.survey = poses.survey ? poses.survey : stored(result.poses[kSurveyPoses], study.request.poses[kSurveyPoses]);
-    motion.path = poses.path ? poses.path : stored(result.poses[kPathPoses], study.request.poses[kPathPoses]);
     if (p.horizon)  // curves are paler where θ is not reproducible
         for (const Lost& lost : unreliable(result, std::numeric_limits<double>::infinity()))
             motion.unreliable.push_back({lost.from, lost.to});
@@ -70,18 +63,17 @@ std::vector<render::FilmData> data_of(const Scene& scene) {
 }
 
 // The accuracy note is that of the least accurate motion.
-void add_motions(const Pictures& p, std::vector<sim::Result>& results, const std::vector<StoredPoses>& poses,
-                 render::FilmSetup& setup) {
+void add_motions(const Plan& plan, const Pictures& p, std::vector<sim::Result>& results, render::FilmSetup& setup) {
     double worst = -1;
     std::string beyond;
-    for (std::size_t i = 0; i < p.shown.size(); ++i) {
-        const sim::Problem& problem = p.shown[i].problem;
+    for (const std::size_t i : p.motions) {
+        const sim::Problem& problem = plan.motions[i].problem;
         sim::Result& result = results[i];
         const double share = result.energy_scale > 0 ? result.energy_residual_max / result.energy_scale : 0;
         if (share > worst) worst = share, setup.accuracy_note = accuracy_note(problem, result);
         if (result.beyond_model) beyond = beyond_model(problem);
-        render::Motion motion = motion_of(p, p.shown[i], poses[i], result);
-        if (i == 0)
+        render::Motion motion = motion_of(p, plan.motions[i], result);
+        if (i == p.motions.front())
             static_cast<render::Motion&>(setup) = std::move(motion);
         else
             setup.others.push_back(std::move(motion));
@@ -100,8 +92,8 @@ std::string accuracy_note(const sim::Problem& problem, const sim::Result& result
     return note;
 }
 
-render::FilmSetup film_setup(const Plan& plan, std::size_t picture, const Scene& scene, PlanResults& results) {
-    const Pictures& p = plan.pictures[picture];
+render::FilmSetup film_setup(const Plan& plan, const Pictures& p, const Scene& scene,
+                             std::vector<sim::Result>& results) {
     render::FilmSetup setup;
     setup.title = scene.title;
     setup.width = p.size.width;
@@ -111,12 +103,12 @@ render::FilmSetup film_setup(const Plan& plan, std::size_t picture, const Scene&
     setup.layout = p.layout;
     setup.comparison = p.comparison;
     if (p.kind != Pictures::Kind::still) setup.fps = p.span.fps.value();
-    setup.speeds = p.speeds;
-    setup.slow_motion = is_slow_motion(p);
-    setup.callouts = p.callouts;
+    setup.speeds = p.times.speeds;
+    setup.slow_motion = is_slow_motion(p, p.end_time);
+    setup.callouts = p.times.callouts;
     setup.data = data_of(scene);
-    setup.moves = p.moves;
-    add_motions(p, results.shown[picture], results.poses[picture], setup);
+    setup.moves = p.times.moves;
+    add_motions(plan, p, results, setup);
     return setup;
 }
 

@@ -2,14 +2,16 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "render/film/film.hpp"
-#include "scenes/outputs/plan_motions.hpp"
+#include "scenes/plan/plan.hpp"
 
 namespace beamcam::scenes {
 
-// Moves poses and tables out of the results.
-render::FilmSetup film_setup(const Plan& plan, std::size_t picture, const Scene& scene, PlanResults& results);
+// `results`: of the motions of the plan; poses and tables of this picture are moved out of them.
+render::FilmSetup film_setup(const Plan& plan, const Pictures& p, const Scene& scene,
+                             std::vector<sim::Result>& results);
 
 // "rtol 10⁻⁸ · energy closes to 2 × 10⁻⁹ · bends beyond first-order"
 std::string accuracy_note(const sim::Problem& problem, const sim::Result& result);

@@ -21,8 +21,10 @@ void OutputFiles::recover() {
     for (const fs::path& folder : folders) context_.file_list.recover(folder);
 }
 
-void OutputFiles::claim(const Plan& plan) {
-    const std::vector<fs::path> claimed = files_of(plan);
+void OutputFiles::claim(const std::vector<std::string>& files) {
+    std::vector<fs::path> claimed;
+    for (const std::string& file : files)
+        if (!is_stdout(file)) claimed.push_back(path_of(file));
     const std::string& directory = context_.options.directory;
     for (const fs::path& file : claimed) {
         std::error_code ignored;
@@ -40,29 +42,6 @@ void OutputFiles::claim(const Plan& plan) {
     }
     if (!directory.empty())
         for (const fs::path& file : claimed) output::ensure_directory(file.parent_path());
-}
-
-std::vector<fs::path> OutputFiles::files_of(const Pictures& p) const {
-    std::vector<fs::path> all;
-    if (p.kind != Pictures::Kind::frames) {
-        all.push_back(path_of(p.file));
-        if (!p.poster_file.empty() && (!p.times_known || p.makes_poster())) all.push_back(path_of(p.poster_file));
-    } else if (!p.times_known) {
-        all.push_back(path_of(numbered_file(p.file, 0)));  // at least one, while their number is unknown
-    } else {
-        for (int k : p.draw) all.push_back(path_of(numbered_file(p.file, p.first_frame + k)));
-    }
-    return all;
-}
-
-std::vector<fs::path> OutputFiles::files_of(const Plan& plan) const {
-    std::vector<fs::path> all;
-    for (const Pictures& p : plan.pictures) std::ranges::move(files_of(p), std::back_inserter(all));
-    for (const FigureFile& f : plan.figures)
-        for (const std::string& file : written_by(scene_.outputs[f.output])) all.push_back(path_of(file));
-    for (const DataFile& d : plan.data)
-        if (!is_stdout(d.file)) all.push_back(path_of(d.file));
-    return all;
 }
 
 output::Target OutputFiles::target(const fs::path& file, std::optional<std::size_t> output) const {

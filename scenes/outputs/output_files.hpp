@@ -20,10 +20,8 @@ class OutputFiles {
     std::filesystem::path path_of(const std::string& file) const;
     // Cleans up after killed runs in the folders of all outputs.
     void recover();
-    // Throws if a file of the plan cannot be written.
-    void claim(const Plan& plan);
-    // The files of a film, a sequence or a still.
-    std::vector<std::filesystem::path> files_of(const Pictures& p) const;
+    // Throws if one of these files of outputs cannot be written.
+    void claim(const std::vector<std::string>& files);
 
     // Without `output` no inputs are recorded.
     output::Target target(const std::filesystem::path& file, std::optional<std::size_t> output = {}) const;
@@ -32,8 +30,6 @@ class OutputFiles {
     void count_written(const std::filesystem::path& file);
 
   private:
-    std::vector<std::filesystem::path> files_of(const Plan& plan) const;
-
     const Scene& scene_;
     const std::vector<std::string>& inputs_;
     RunContext& context_;

@@ -4,7 +4,6 @@
 #include "scenes/format/checks.hpp"
 #include "scenes/format/value_formats.hpp"
 #include "scenes/outputs/picture_keys.hpp"
-#include "scenes/plan/output_times.hpp"
 #include "scenes/plan/planner.hpp"
 #include "scenes/scene/files.hpp"
 
@@ -89,21 +88,6 @@ void PictureOutput::visit(SceneVisitor& v) {
     }
 }
 
-void PictureOutput::plan(Planner& planner, std::size_t output) const {
-    Pictures p;
-    static_cast<PictureOutput&>(p) = *this;
-    p.output = output;
-    double end = span.to.value_or(planner.scene().end_time);
-    if (kind == Kind::video) p.poster_file = poster_file(*this);
-    if (kind == Kind::page) {
-        p.view.style = render::Style::flat;
-        p.span.fps = rate_of_page(span.fps, span.from, end);
-    }
-    if (kind == Kind::still) {
-        if (at.kind == Instant::Kind::last) p.at = {.kind = Instant::Kind::time, .t = planner.scene().end_time};
-        end = p.at.is_event() ? planner.scene().end_time : p.at.t;
-    }
-    planner.add(std::move(p), end);
-}
+void plan(Planner& planner, const PictureOutput&, const ResolvedOutput& resolved) { planner.add(resolved); }
 
 }  // namespace beamcam::scenes

@@ -21,7 +21,7 @@ class PngSink final : public PictureSink {
         later_metadata_ = metadata_;
         later_metadata_.erase("beamcam-scene");
         later_metadata_["beamcam-scene-in"] =
-            std::filesystem::path(numbered_file(p.file, p.first_frame)).filename().string();
+            std::filesystem::path(numbered_file(p.file, p.times.first)).filename().string();
     }
 
     Input input(Gate&) override {
@@ -46,15 +46,14 @@ class PngSink final : public PictureSink {
     void finish() override {
         if (p_.kind == Pictures::Kind::still) return to_.files.wrote(to_.files.path_of(p_.file), "");
         to_.context.progress.end();
-        const std::string last = numbered_file(p_.file, p_.first_frame + p_.draw.back());
+        const std::string last = numbered_file(p_.file, p_.number_of(p_.draw.size() - 1));
         to_.context.print("wrote {}{} ({})\n", path_of(0).string(), p_.draw.size() > 1 ? " … " + last : "",
                           counted(p_.draw.size(), "frame"));
     }
 
   private:
     std::filesystem::path path_of(std::size_t k) const {
-        return to_.files.path_of(
-            p_.kind == Pictures::Kind::still ? p_.file : numbered_file(p_.file, p_.first_frame + p_.draw[k]));
+        return to_.files.path_of(p_.kind == Pictures::Kind::still ? p_.file : numbered_file(p_.file, p_.number_of(k)));
     }
 
     const Pictures& p_;

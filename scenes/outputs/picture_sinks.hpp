@@ -42,7 +42,7 @@ struct SinkFiles {
 std::map<std::string, std::string> png_metadata(const SinkFiles& files);
 // With the keys of MP4; `scene` as JSON.
 std::map<std::string, std::string> film_metadata(const std::string& scene, const std::string& title);
-output::VideoOptions video_options(const Pictures& p);
+output::VideoOptions video_options(const PictureOutput& p);
 
 std::unique_ptr<PictureSink> make_video_sink(const Pictures& p, render::Film& film, const SinkFiles& files);
 std::unique_ptr<PictureSink> make_png_sink(const Pictures& p, const SinkFiles& files);

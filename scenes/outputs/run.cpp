@@ -38,7 +38,7 @@ void reject_clashes(std::span<const Scene> scenes) {
 
 void warn_of_ignored_gl_settings(const RunContext& context, const SceneRuns& all) {
     const std::vector<std::string>& ignored = render::ignored_gl_settings();
-    const bool drawn = std::ranges::any_of(all, [](const auto& scene) { return scene->plan().needs_gl(); });
+    const bool drawn = std::ranges::any_of(all, [](const auto& scene) { return scene->needs_gl(); });
     if (drawn && !ignored.empty())
         context.print("warning: lit and solid views ignore these settings of OpenGL: {}\n", fmt::join(ignored, ", "));
 }
@@ -86,9 +86,9 @@ void run(std::span<const Scene> scenes, const RunOptions& options) {
     SceneRuns all;
     for (const Scene& scene : scenes) all.push_back(std::make_unique<SceneRun>(scene, context));
     for (const auto& scene : all) scene->prepare();
+    for (const auto& scene : all) scene->plan();
     warn_of_ignored_gl_settings(context, all);
     // 2. Integrate each motion once.
-    for (const auto& scene : all) scene->find_events();
     compute_motions(context, all);
     for (const auto& scene : all) scene->compute_sweep();
     // 3. Write the files, and record them.
@@ -108,38 +108,31 @@ void run(std::span<const Scene> scenes, const RunOptions& options) {
 
 void run(const Scene& scene, const RunOptions& options) { run({&scene, 1}, options); }
 
-void draw(const Plan& plan, const Scene& scene, DrawCallbacks& callbacks, const RunOptions& options) {
-    // 1. Compute what the given results lack: other motions and the sweep.
+void draw(const PlanWithFigures& plan, const Scene& scene, std::vector<sim::Result> results, DrawCallbacks& callbacks,
+          const RunOptions& options) {
     RunContext context(options);
-    PlanMotions motions(plan, context.motions);
-    motions.request_others();
-    context.motions.compute();
-    PlanResults results = motions.take_results(std::move(callbacks.results));
-    for (std::size_t i = 0; i < plan.pictures.size() && callbacks.compared; ++i)
-        for (std::size_t k = 0; k < plan.pictures[i].compare.size(); ++k) callbacks.compared(i, k, results.shown[i][k]);
     std::optional<SweepRun> sweep;
     if (!plan.sweep.empty()) {
         sweep.emplace(scene);
         sweep->make(options.threads, context.progress);
     }
-    // 2. Draw the figures.
     for (std::size_t i = 0; i < plan.figures.size(); ++i) {
-        const FigureFile& figure = plan.figures[i];
-        Results of_figure = results.of_figure(i);
+        Results of_figure;
+        for (const std::size_t motion : plan.figures[i].motions) of_figure.studies.push_back(&results[motion]);
         if (sweep) of_figure.swept = sweep->swept();
-        callbacks.figure(figure_image(figure.make(of_figure), std::get<FigureOutput>(scene.outputs[figure.output])));
+        const auto& how = std::get<FigureOutput>(scene.outputs[plan.figures[i].output]);
+        callbacks.figure(figure_image(plan.makers[i](of_figure), how));
     }
-    // 3. Draw the pictures.
-    for (std::size_t i = 0; i < plan.pictures.size(); ++i) {
+    for (const Pictures& p : plan.pictures) {
         stop_if_interrupted();
-        const render::Film film(film_setup(plan, i, scene, results));
-        draw(plan.pictures[i], film, *make_callback_sink(plan.pictures[i], callbacks), context);
+        const render::Film film(film_setup(plan, p, scene, results));
+        draw(p, film, *make_callback_sink(p, callbacks), context);
     }
 }
 
 Plan plan_for(const Scene& scene, const RunOptions& options) {
     RunContext context(options);
-    return SceneRun(scene, context).plan();
+    return SceneRun(scene, context).dry_plan();
 }
 
 }  // namespace beamcam::scenes

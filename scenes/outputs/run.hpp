@@ -42,19 +42,17 @@ struct NameClash : std::runtime_error {
 void run(std::span<const Scene> scenes, const RunOptions& options);
 void run(const Scene& scene, const RunOptions& options);
 
-// Replaces both ends of a run, for commands that compare pictures: brings results and receives images.
+// Receives images, for commands that compare pictures.
 struct DrawCallbacks {
-    std::vector<sim::Result> results;  // of requests_of(plan), simulated before for several plans; `draw` moves from it
     // A frame, numbered from 0 in each output. Several threads call this concurrently, in any order.
     std::function<void(const Pictures&, long frame, const render::Image&)> picture;
     std::function<void(const render::Image&)> figure;  // in pixels, whatever the ending of its file
-    // A compared motion, by the index of the picture and its own index; before any picture.
-    std::function<void(std::size_t picture, std::size_t index, const sim::Result&)> compared;
 };
-// Draws the pictures and figures of a plan whose times are known.
-void draw(const Plan& plan, const Scene& scene, DrawCallbacks& callbacks, const RunOptions& options);
+// Draws the pictures and figures of a plan. `results`: of its motions.
+void draw(const PlanWithFigures& plan, const Scene& scene, std::vector<sim::Result> results, DrawCallbacks& callbacks,
+          const RunOptions& options);
 
-// The plan that `run` would carry out now.
+// The plan that `run` would carry out now, made without integrating: outputs whose times depend on events wait.
 Plan plan_for(const Scene& scene, const RunOptions& options);
 
 }  // namespace beamcam::scenes

@@ -7,7 +7,7 @@
 #include "output/data/file_list.hpp"
 #include "output/files/standard_output.hpp"
 #include "output/files/work.hpp"
-#include "scenes/motions/motion_store.hpp"
+#include "scenes/motions/motion_pool.hpp"
 #include "scenes/outputs/run.hpp"
 #include "sim/base/clock.hpp"
 #include "sim/base/counted.hpp"
@@ -32,7 +32,7 @@ struct RunContext {
     const RunOptions& options;
     Progress progress;
     output::FileList file_list;
-    MotionStore motions;
+    MotionPool motions;
     output::Work work;
     Times times;
     std::size_t rejected = 0;        // outputs that could not be written

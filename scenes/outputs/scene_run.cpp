@@ -39,57 +39,105 @@ sim::Table reached_rows(const sim::Table& table) {
 SceneRun::SceneRun(const Scene& scene, RunContext& context)
     : scene_(scene),
       context_(context),
-      up_to_date_(check_up_to_date(scene, context.options.shard, context.options.directory, context.file_list,
-                                   context.options.force)),
-      plan_(scenes::plan(scene, context.options.shard, up_to_date_.existing)),
-      files_(scene, up_to_date_.inputs, context),
-      motions_(plan_, context.motions) {}
+      inputs_(inputs_keys(scene, context.options.shard)),
+      existing_(context.options.force ? ExistingWork()
+                                      : find_existing(scene, inputs_, context.options.shard, context.options.directory,
+                                                      context.file_list)),
+      files_(scene, inputs_, context) {}
 
 // ---- before the motions ------------------------------------------------------------------------
+
+Plan SceneRun::dry_plan() const {
+    std::set<std::size_t> without = existing_.finished;
+    std::vector<std::size_t> waiting;
+    for (std::size_t i = 0; i < scene_.outputs.size(); ++i)
+        if (needs_events(scene_.outputs[i], scene_) && without.insert(i).second) waiting.push_back(i);
+    Plan made = scenes::plan(resolve(scene_, without, {}), context_.options.shard, existing_);
+    made.waiting = std::move(waiting);
+    return made;
+}
 
 void SceneRun::prepare() {
     report_up_to_date();
     files_.recover();
-    files_.claim(plan_);
+    std::vector<std::string> files;
+    for (std::size_t i = 0; i < scene_.outputs.size(); ++i)
+        if (!existing_.finished.contains(i) && !is_part_of_sweep(i))
+            std::ranges::move(written_by(scene_.outputs[i]), back_inserter(files));
+    files_.claim(files);
     check_libraries();
 }
 
+bool SceneRun::is_part_of_sweep(std::size_t output) const {
+    return std::holds_alternative<SweepOutput>(scene_.outputs[output]) && !context_.options.shard.whole();
+}
+
 void SceneRun::report_up_to_date() {
-    for (const auto& [output, file] : up_to_date_.existing.finished) {
+    for (const std::size_t output : existing_.finished) {
         ++context_.work.files_left;
-        context_.print("kept {}: up to date (--force writes it again)\n", files_.path_of(file).string());
-    }
-    for (const auto& [output, frames] : up_to_date_.existing.frames) {
-        context_.work.frames_left += static_cast<long>(frames.size());
-        context_.print("kept {} of {}: up to date\n", counted(frames.size(), "frame"),
+        context_.print("kept {}: up to date (--force writes it again)\n",
                        files_.path_of(file_of(scene_.outputs[output])).string());
+    }
+}
+
+void SceneRun::report_kept_frames(const ResolvedOutput& sequence) {
+    const auto existing = existing_.frames.find(sequence.index);
+    if (existing == existing_.frames.end()) return;
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < sequence.times.frames.size(); ++k)
+        kept += existing->second.contains(sequence.times.first + static_cast<long>(k)) ? 1 : 0;
+    const std::string file = files_.path_of(file_of(sequence.output)).string();
+    if (kept == sequence.times.frames.size()) {
+        ++context_.work.files_left;
+        context_.print("kept {}: up to date (--force writes it again)\n", file);
+    } else if (kept > 0) {
+        context_.work.frames_left += static_cast<long>(kept);
+        context_.print("kept {} of {}: up to date\n", counted(kept, "frame"), file);
     }
 }
 
 // Opens and discards a film of each codec, so that a missing library is reported before any computation.
 void SceneRun::check_libraries() {
-    for (const DataFile& d : plan_.data)
-        if (d.file.ends_with(".nc")) output::netcdf_library();
     std::set<output::Codec> tried;
-    for (const Pictures& p : plan_.pictures)
-        if (p.kind == Pictures::Kind::video && tried.insert(p.encoding.codec).second) {
-            const output::VideoWriter trial(files_.target(files_.path_of(p.file)), video_options(p));
-            context_.work.encoder_modules = 1;
-            ++context_.work.encoders;
-        }
+    for (std::size_t i = 0; i < scene_.outputs.size(); ++i) {
+        if (existing_.finished.contains(i)) continue;
+        const Output& output = scene_.outputs[i];
+        if (std::holds_alternative<SweepOutput>(output) && file_of(output).ends_with(".nc")) output::netcdf_library();
+        const PictureOutput* video = picture_of(output, PictureOutput::Kind::video);
+        if (!video || !tried.insert(video->encoding.codec).second) continue;
+        const output::VideoWriter trial(files_.target(files_.path_of(video->file)), video_options(*video));
+        context_.work.encoder_modules = 1;
+        ++context_.work.encoders;
+    }
 }
 
-void SceneRun::find_events() {
-    if (!plan_.events_until) return;
+void SceneRun::plan() {
     const auto start = Clock::now();
-    resolve_event_times(
-        plan_, scene_,
+    const ResolvedScene resolved = resolve(
+        scene_, existing_.finished,
         [&](const sim::Problem& problem, const sim::Request& request) {
             return context_.motions.find_events(problem, request);
         },
         [&](std::size_t output, const std::string& why) { reject(output, why); });
     context_.times.simulate += seconds_since(start);
-    files_.claim(plan_);  // the number of frames is known now
+    plan_ = scenes::plan(resolved, context_.options.shard, existing_);
+    std::vector<std::string> files;  // whose names are known now
+    for (const DataFile& d : plan_.data)
+        if (!d.part.empty()) files.push_back(d.file);
+    for (const Pictures& p : plan_.pictures) {
+        if (p.kind != PictureOutput::Kind::frames) continue;
+        for (std::size_t k = 0; k < p.draw.size(); ++k) files.push_back(numbered_file(p.file, p.number_of(k)));
+    }
+    for (const ResolvedOutput& each : resolved.outputs) report_kept_frames(each);
+    files_.claim(files);
+}
+
+void SceneRun::request_motions() {
+    for (const MotionRequest& each : plan_.motions) requests_.push_back(context_.motions.add(each));
+}
+
+void SceneRun::take_motions() {
+    for (const std::size_t request : requests_) results_.push_back(context_.motions.take(request));
 }
 
 // ---- the sweep ---------------------------------------------------------------------------------
@@ -121,38 +169,36 @@ void SceneRun::compute_sweep() {
 // ---- files -------------------------------------------------------------------------------------
 
 void SceneRun::write_outputs() {
-    const auto write_each_data = [&](bool reporting) {
+    const auto reports_work = [&](const DataFile& d) { return std::holds_alternative<SummaryOutput>(output_of(d)); };
+    const auto write_data_files = [&](bool reporting) {
         for (const DataFile& d : plan_.data)
-            if (d.reports_work == reporting) attempt(d.output, [&] { write_data(d); });
+            if (reports_work(d) == reporting) attempt(d.output, [&] { write_data_file(d); });
     };
-    write_each_data(false);
+    write_data_files(false);
     for (std::size_t i = 0; i < plan_.figures.size(); ++i) attempt(plan_.figures[i].output, [&] { write_figure(i); });
-    for (std::size_t i = 0; i < plan_.pictures.size(); ++i)
-        attempt(plan_.pictures[i].output, [&] { write_pictures(i); });
-    write_each_data(true);
+    for (const Pictures& p : plan_.pictures) attempt(p.output, [&] { write_pictures(p); });
+    write_data_files(true);
     if (sweep_ && !rejected_) sweep_->remove();
 }
 
 DataSource SceneRun::source_of(const sim::Result& run, const output::Target* file) const {
     static const sim::Request kNone;
-    return {scene_.problem,
-            plan_.simulation ? plan_.simulation->request : kNone,
-            run,
-            context_.work,
-            file,
-            sweep_ ? &sweep_->data() : nullptr,
-            context_.progress};
+    return {scene_, plan_.run ? plan_.motions[*plan_.run].request : kNone,
+            run,    context_.work,
+            file,   sweep_ ? &sweep_->data() : nullptr};
 }
 
-void SceneRun::write_data(const DataFile& d) {
+void SceneRun::write_data_file(const DataFile& d) {
+    static const sim::Result kNone;
+    const sim::Result& run = plan_.run ? results_[*plan_.run] : kNone;
     stop_if_interrupted();
     const auto start = Clock::now();
     if (is_stdout(d.file)) {
-        d.write(source_of(results_.run, nullptr));
+        write_data(d, source_of(run, nullptr));
     } else {
         const fs::path file = files_.path_of(d.file);
         const output::Target target = files_.target(file, d.output);
-        files_.wrote(file, d.write(source_of(results_.run, &target)));
+        files_.wrote(file, write_data(d, source_of(run, &target)));
     }
     context_.times.write += seconds_since(start);
 }
@@ -162,10 +208,11 @@ void SceneRun::write_figure(std::size_t figure) {
     const auto start = Clock::now();
     const FigureFile& f = plan_.figures[figure];
     const auto& how = std::get<FigureOutput>(scene_.outputs[f.output]);
-    Results results = results_.of_figure(figure);
+    Results results;
+    for (const std::size_t motion : f.motions) results.studies.push_back(&results_[motion]);
     Scene carried = scene_;
     if (sweep_) results.swept = sweep_->swept(), carried.sweep = sweep_->grid().sweep();
-    const render::figure::Figure made = f.make(results);
+    const render::figure::Figure made = plan_.makers[figure](results);
     for (const std::string& what : missing_data(made)) context_.print("warning: {} shows {}\n", how.file, what);
     for (const auto& [file, bytes] : figure_files(made, how, scene_of_figure(std::move(carried), how))) {
         output::write_file(files_.target(files_.path_of(file), f.output), bytes);
@@ -176,16 +223,14 @@ void SceneRun::write_figure(std::size_t figure) {
     context_.times.write += seconds_since(start);
 }
 
-void SceneRun::write_pictures(std::size_t picture) {
-    const Pictures& p = plan_.pictures[picture];
-    if (p.draw.empty()) return;  // all frames of a sequence are up to date
+void SceneRun::write_pictures(const Pictures& p) {
     stop_if_interrupted();
     warn_of_omissions(p);
-    render::FilmSetup setup = film_setup(plan_, picture, scene_, results_);
+    const std::size_t first = p.motions.front();
+    const std::string accuracy = accuracy_note(plan_.motions[first].problem, results_[first]);
+    render::FilmSetup setup = film_setup(plan_, p, scene_, results_);
     if (p.kind == Pictures::Kind::page) return write_page(p, render::html_page(setup));
-    const SinkFiles to{
-        scene_, files_, context_,
-        accuracy_note(scene_.problem, p.compare.empty() ? results_.shown[picture].front() : results_.run)};
+    const SinkFiles to{scene_, files_, context_, accuracy};
     render::Film film(std::move(setup));
     if (const auto requested = p.view.exaggeration; requested && film.exaggeration_reduced())
         context_.print(
@@ -195,7 +240,7 @@ void SceneRun::write_pictures(std::size_t picture) {
     if (film.exaggeration() > 1 && film.has_mechanism() && !film.states_exaggeration())
         context_.print("note: {} shows deflection ×{:g} without stating it; state it in the caption\n", p.file,
                        film.exaggeration());
-    if (!p.callouts.empty() && !film.shows_captions())
+    if (!p.times.callouts.empty() && !film.shows_captions())
         context_.print("warning: {} shows no texts of events: {}\n", p.file, why_text_is_omitted(p.size));
     if (film.title_truncated())
         context_.print("warning: {} shows only the beginning of the title: {}\n", p.file, why_text_is_omitted(p.size));
@@ -218,13 +263,13 @@ void SceneRun::warn_of_omissions(const Pictures& p) const {
     if (!p.omitted_panels.empty())
         context_.print("warning: {} shows no {}: {}\n", p.file, p.omitted_panels, why_panels_are_omitted(p.size));
     constexpr std::size_t kFewFrames = 12;
-    if (const std::size_t frames = plan_.times(p).size(); p.has_frames() && p.span.real_time() && frames < kFewFrames)
+    if (const std::size_t frames = p.times.frames.size(); p.has_frames() && p.span.real_time() && frames < kFewFrames)
         context_.print(
             "warning: {} has only {}; \"duration\": \"4 s\" (speed {:.2g}) would show its {:g} s in slow motion\n",
             p.file, counted(frames, "frame"), (p.end_time - p.span.from) / 4, p.end_time - p.span.from);
-    if (!p.unreached_events.empty())
+    if (!p.times.unreached_events.empty())
         context_.print("warning: {} does not show {}: outside the film\n", p.file,
-                       fmt::join(p.unreached_events, " or "));
+                       fmt::join(p.times.unreached_events, " or "));
     if (const std::string lost = characters_without_font(p, scene_); !lost.empty())
         context_.print("warning: {}\n", lost);
     if (p.kind == Pictures::Kind::page) return;
@@ -234,19 +279,20 @@ void SceneRun::warn_of_omissions(const Pictures& p) const {
 }
 
 void SceneRun::write_partial_data() {
-    const sim::Result* partial = motions_.partial_results();
+    const sim::Result* partial = plan_.run ? context_.motions.partial(requests_[*plan_.run]) : nullptr;
     if (!partial) return;
     for (const DataFile& d : plan_.data) {
-        const bool rows = d.table && *d.table < partial->tables.size() && partial->tables[*d.table].rows() > 0;
-        const bool events = d.holds_events && !partial->impacts.empty();
+        const bool is_table = std::holds_alternative<TrajectoryOutput>(output_of(d));
+        const bool rows = is_table && partial->tables[d.tables.front()].rows() > 0;
+        const bool events = std::holds_alternative<ImpactsOutput>(output_of(d)) && !partial->impacts.empty();
         if (is_stdout(d.file) || !(rows || events)) continue;
         fs::path file = files_.path_of(d.file);
         file.replace_extension(".partial" + (rows ? std::string(".csv") : ending_of(d.file)));
         const output::Target target = files_.target(file);
         if (rows)
-            output::write_table(target, reached_rows(partial->tables[*d.table]));
+            output::write_table(target, reached_rows(partial->tables[d.tables.front()]));
         else
-            d.write(source_of(*partial, &target));
+            write_data(d, source_of(*partial, &target));
         files_.wrote(file, "as far as the solver came");
     }
 }

@@ -3,10 +3,11 @@
 
 #include <functional>
 #include <memory>
+#include <set>
 #include <string>
 
+#include "scenes/outputs/data_outputs.hpp"
 #include "scenes/outputs/output_files.hpp"
-#include "scenes/outputs/plan_motions.hpp"
 #include "scenes/plan/up_to_date.hpp"
 #include "scenes/sweep/sweep_run.hpp"
 
@@ -14,17 +15,18 @@ namespace beamcam::scenes {
 
 class SceneRun {
   public:
-    // Finds up-to-date files and plans the others. Both must outlive this.
+    // Finds up-to-date files. Both must outlive this.
     SceneRun(const Scene& scene, RunContext& context);
 
-    const Plan& plan() const { return plan_; }
-
+    // The plan without integration: outputs at events wait.
+    Plan dry_plan() const;
     // Rejects outputs that cannot be written.
     void prepare();
-    // Finds the events on which times of outputs depend.
-    void find_events();
-    void request_motions() { motions_.request_all(); }
-    void take_motions() { results_ = motions_.take_results(); }
+    // Finds the events on which times of outputs depend, and plans the outputs that are not up to date.
+    void plan();
+    bool needs_gl() const { return plan_.needs_gl(); }
+    void request_motions();
+    void take_motions();
     // Computes the points of the scene's sweep, if outputs need them.
     void compute_sweep();
     void write_outputs();
@@ -32,13 +34,16 @@ class SceneRun {
     void write_partial_data();
 
   private:
+    bool is_part_of_sweep(std::size_t output) const;
     void report_up_to_date();
+    void report_kept_frames(const ResolvedOutput& sequence);
     void check_libraries();
+    const Output& output_of(const DataFile& data) const { return scene_.outputs[data.output]; }
     // Of this motion of the scene. `file`: null for standard output.
     DataSource source_of(const sim::Result& run, const output::Target* file) const;
-    void write_data(const DataFile& data);
+    void write_data_file(const DataFile& data);
     void write_figure(std::size_t figure);
-    void write_pictures(std::size_t picture);
+    void write_pictures(const Pictures& p);
     void write_page(const Pictures& p, const std::string& bytes);
     void warn_of_omissions(const Pictures& p) const;
     void attempt(std::size_t output, const std::function<void()>& work);
@@ -46,11 +51,12 @@ class SceneRun {
 
     const Scene& scene_;
     RunContext& context_;
-    const UpToDate up_to_date_;
-    Plan plan_;  // complete after find_events
+    const std::vector<std::string> inputs_;  // keys of the outputs' inputs
+    const ExistingWork existing_;
     OutputFiles files_;
-    PlanMotions motions_;
-    PlanResults results_;
+    PlanWithFigures plan_;
+    std::vector<std::size_t> requests_;  // numbers of the plan's motions in the pool
+    std::vector<sim::Result> results_;   // of the plan's motions
     std::unique_ptr<SweepRun> sweep_;
     bool rejected_ = false;  // some output
 };

@@ -67,7 +67,7 @@ class VideoSink final : public PictureSink {
     VideoSink(const Pictures& p, render::Film& film, const SinkFiles& to)
         : p_(p),
           to_(to),
-          poster_metadata_(p.makes_poster() ? png_metadata(to) : std::map<std::string, std::string>()),
+          poster_metadata_(p.times.poster ? png_metadata(to) : std::map<std::string, std::string>()),
           video_(to.files.target(to.files.path_of(p.file), p.output), options_of(p, film, to)) {
         ++to.context.work.encoders;
     }
@@ -108,11 +108,11 @@ class VideoSink final : public PictureSink {
         to_.context.times.encode += spent.encode_seconds;
         to_.context.work.frames_encoded += spent.frames;
         to_.files.wrote(to_.files.path_of(p_.file), counted(p_.draw.size(), "frame"));
-        if (p_.makes_poster()) to_.files.wrote(to_.files.path_of(p_.poster_file), "poster");
+        if (p_.times.poster) to_.files.wrote(to_.files.path_of(p_.poster_file), "poster");
     }
 
   private:
-    bool is_poster(std::size_t k) const { return p_.makes_poster() && p_.draw[k] == *p_.poster; }
+    bool is_poster(std::size_t k) const { return p_.times.poster && p_.draw[k] == *p_.times.poster; }
 
     const Pictures& p_;
     SinkFiles to_;
@@ -130,7 +130,7 @@ std::map<std::string, std::string> film_metadata(const std::string& scene, const
     return all;
 }
 
-output::VideoOptions video_options(const Pictures& p) {
+output::VideoOptions video_options(const PictureOutput& p) {
     output::VideoOptions video;
     video.width = p.size.width;
     video.height = p.size.height;

@@ -2,10 +2,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "scenes/format/keys.hpp"
+#include <algorithm>
+
+#include "output/json/tree.hpp"
 #include "scenes/plan/plan.hpp"
 #include "scenes/sweep/sweep_grid.hpp"
 #include "sim/base/counted.hpp"
+#include "sim/observe/recorder.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -14,39 +17,62 @@ struct Line {
     std::string what, name, content;
 };
 
-Line line_of(const Plan& plan, const PlannedMotion& motion) {
-    const sim::Beam& beam = motion.problem.beam;
-    const bool rigid = beam.model == sim::ModelKind::rigid;
-    const double end = motion.ends_at_event ? std::max(motion.request.end_time, plan.events_until.value_or(0))
-                                            : motion.request.end_time;
-    return {"motion", rigid ? name(beam.model) : fmt::format("{}, {}", name(beam.model), counted(beam.modes, "mode")),
-            fmt::format("until {:g} s{}{}{}", end, motion.ends_at_event ? " at most" : "",
-                        motion.label.empty() ? "" : fmt::format(", \"{}\"", motion.label),
-                        motion.horizon ? ", compared with further runs" : "")};
+// One line for all requests of a motion.
+void add_motions(const Plan& plan, std::vector<Line>& lines) {
+    std::vector<MotionRequest> all;
+    for (const MotionRequest& each : plan.motions) {
+        const auto same = std::ranges::find(all, each.key, &MotionRequest::key);
+        if (same == all.end()) {
+            all.push_back(each);
+            all.back().request.end_time = end_of(each.request);
+            continue;
+        }
+        same->request.end_time = std::max(same->request.end_time, end_of(each.request));
+        same->request.horizon = same->request.horizon || each.request.horizon;
+        if (same->label.empty()) same->label = each.label;
+    }
+    for (const MotionRequest& each : all) {
+        const sim::Beam& beam = each.problem.beam;
+        const bool rigid = beam.model == sim::ModelKind::rigid;
+        lines.push_back(
+            {"motion", rigid ? name(beam.model) : fmt::format("{}, {}", name(beam.model), counted(beam.modes, "mode")),
+             fmt::format("until {:g} s{}{}", each.request.end_time,
+                         each.label.empty() ? "" : fmt::format(", \"{}\"", each.label),
+                         each.request.horizon ? ", compared with further runs" : "")});
+    }
+}
+
+std::string type_of(const Output& output) {
+    if (const auto* picture = std::get_if<PictureOutput>(&output))
+        return std::ranges::find(kPictureTypes, picture->kind, &PictureType::kind)->name;
+    return std::visit(
+        [](const auto& each) -> std::string {
+            if constexpr (requires { each.kType; }) return each.kType;
+            return {};
+        },
+        output);
 }
 
 std::vector<Line> lines_of(const Plan& plan, const Scene& scene) {
     std::vector<Line> lines;
-    const auto add_files = [&](std::string what, const std::string& file, std::string content, std::size_t output) {
-        lines.push_back({std::move(what), file, std::move(content)});
-        const std::vector<std::string> all = written_by(scene.outputs[output]);
-        for (std::size_t i = 1; i < all.size(); ++i) lines.push_back({"", all[i], {}});
-    };
-    if (plan.simulation) lines.push_back(line_of(plan, *plan.simulation));
-    for (const PlannedMotion& other : plan.others) lines.push_back(line_of(plan, other));
+    add_motions(plan, lines);
     if (!plan.sweep.empty()) {
         std::vector<std::string> keys;
         for (const SweptKey& over : scene.sweep->over) keys.push_back(over.key);
         lines.push_back(
             {"sweep", fmt::format("{}", fmt::join(keys, " and ")), counted(SweepGrid(scene).points(), "point")});
     }
-    for (const Pictures& p : plan.pictures) {
-        const PictureType& type = *std::ranges::find(kPictureTypes, p.kind, &PictureType::kind);
-        const bool counts = p.has_frames() && !p.draw.empty();
-        add_files(type.name, p.file, counts ? counted(p.draw.size(), "frame") : "", p.output);
-    }
-    for (const FigureFile& f : plan.figures) add_files("figure", f.file, f.figure, f.output);
-    for (const DataFile& d : plan.data) add_files(d.type, d.file, d.content, d.output);
+    const auto add_output = [&](std::size_t output, std::string content) {
+        const std::vector<std::string> files = written_by(scene.outputs[output]);
+        lines.push_back({type_of(scene.outputs[output]), files.front(), std::move(content)});
+        for (std::size_t i = 1; i < files.size(); ++i) lines.push_back({"", files[i], {}});
+    };
+    for (const Pictures& p : plan.pictures) add_output(p.output, p.has_frames() ? counted(p.draw.size(), "frame") : "");
+    for (const FigureFile& f : plan.figures) add_output(f.output, f.figure);
+    for (const DataFile& d : plan.data) add_output(d.output, d.content);
+    for (const std::size_t output : plan.waiting)
+        add_output(output, fmt::format("at events, which a run until {:g} s at most finds",
+                                       events_until(scene.outputs[output], scene)));
     for (const std::string& file : plan.kept) lines.push_back({"kept", file, {}});
     return lines;
 }

@@ -5,9 +5,7 @@
 #include <algorithm>
 
 #include "scenes/motions/identity.hpp"
-#include "scenes/plan/output_times.hpp"
 #include "sim/base/counted.hpp"
-#include "sim/observe/recorder_set.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -16,14 +14,6 @@ using sim::ChannelKind;
 
 const std::vector<sim::Channel> kTraceChannels = {
     {ChannelKind::t, 0}, {ChannelKind::contact_x, 0}, {ChannelKind::contact_s, 0}, {ChannelKind::contact_force, 0}};
-
-std::vector<render::PanelSpec> panels_of(const Pictures& p, const sim::Problem& problem) {
-    if (p.layout) return render::panels_of(*p.layout);
-    const sim::Problem* shown = p.compare.empty() ? &problem : &p.compare.front().problem;
-    for (const Compared& each : p.compare)
-        if (!shown->cam) shown = &each.problem;
-    return render::standard_panels(*shown, is_slow_motion(p));
-}
 
 std::string omitted_panels(const Picture& picture) {
     std::string out;
@@ -35,21 +25,9 @@ std::string omitted_panels(const Picture& picture) {
     return out;
 }
 
-// A strip of one collision at a time needs more rows than one of the whole time, a page more instants.
-bool shows_collisions(const Pictures& p, const sim::Problem& problem) {
-    if (!p.compare.empty() || !problem.cam) return false;
-    return p.kind == Pictures::Kind::page ||
-           std::ranges::any_of(panels_of(p, problem), &render::PanelSpec::by_collision);
-}
-
-sim::PoseRequest survey() {
-    sim::PoseRequest request;
-    request.contacts =
-        400;  // about ten collisions; the hardest are among them, because every collision dissipates energy
-    return request;
-}
-
 constexpr double kCurveStray = 2e-3;  // of the range: two pixels of a panel that fills a frame of 1080 lines
+// Poses in contact: about ten collisions; the hardest are among them, because every collision dissipates energy.
+constexpr std::size_t kSurveyedContacts = 400;
 
 // The curve that a panel draws from the chart's table.
 std::optional<std::pair<sim::Channel, sim::Channel>> drawn_curve(const std::vector<render::PanelSpec>& panels) {
@@ -59,115 +37,103 @@ std::optional<std::pair<sim::Channel, sim::Channel>> drawn_curve(const std::vect
     return std::nullopt;
 }
 
-// The number of the first frame, and how many there are; nullopt if that depends on events.
-std::optional<std::pair<long, long>> known_numbers(const Pictures& p, const FilmTimes& times) {
-    if (p.times_known) return std::pair(times.first, static_cast<long>(std::ssize(times.frames)));
-    if (!p.has_frames()) return std::nullopt;
-    const auto numbers = frame_numbers(p.span, p.end_time);
-    return numbers ? std::optional(std::pair(numbers->first, numbers->second - numbers->first)) : std::nullopt;
+sim::Request request_of(const Pictures& p, const sim::Problem& problem, const std::vector<render::PanelSpec>& panels) {
+    sim::Request request;
+    request.end_time = p.end_time;
+    request.horizon = p.horizon;
+    const FilmTimes& times = p.times;
+    request.poses.resize(3);
+    request.poses[kFramePoses].times = times.frames;
+    request.poses[kSurveyPoses].times = times.survey;
+    request.poses[kSurveyPoses].contacts = kSurveyedContacts;
+    request.poses[kPathPoses].times = times.path;
+    request.tables = {{times.chart, render::chart_channels(panels), drawn_curve(panels), kCurveStray}};
+    if (problem.cam) request.tables.push_back({times.trace, kTraceChannels});
+    return request;
 }
+
+double latest(const std::vector<double>& times) { return times.empty() ? 0 : *std::ranges::max_element(times); }
 
 }  // namespace
 
-Planner::Planner(const Scene& scene, const Shard& shard, const ExistingWork& existing)
-    : scene_(scene), shard_(shard), existing_(existing), simulation_{scene.problem, motion_key(scene.problem)} {}
-
-Plan Planner::make() {
-    for (std::size_t i = 0; i < scene_.outputs.size(); ++i) {
-        const Output& output = scene_.outputs[i];
-        if (const auto finished = existing_.finished.find(i); finished != existing_.finished.end()) {
-            plan_.kept.push_back(finished->second);
-        } else {
-            std::visit([&](const auto& each) { each.plan(*this, i); }, output);
-        }
-    }
-    if (needed_) plan_.simulation = std::move(simulation_);
-    // In the order of the types.
-    std::ranges::stable_sort(plan_.data, {}, [&](const DataFile& d) { return scene_.outputs[d.output].index(); });
+PlanWithFigures Planner::make() {
+    for (const std::size_t finished : existing_.finished) plan_.kept.push_back(file_of(scene().outputs[finished]));
+    for (const ResolvedOutput& each : resolved_.outputs)
+        std::visit([&](const auto& output) { scenes::plan(*this, output, each); }, each.output);
+    std::ranges::stable_sort(plan_.data, {}, [&](const DataFile& d) { return scene().outputs[d.output].index(); });
     return std::move(plan_);
 }
 
-// ---- what outputs need -------------------------------------------------------------------------
-
-double Planner::run_end() const { return std::max(scene_.end_time, existing_.until); }
-
-void Planner::simulate_until(double t) {
-    needed_ = true;
-    simulation_.simulate_until(t);
+const std::string& Planner::own_key() {
+    if (own_key_.empty()) own_key_ = motion_key(scene().problem);
+    return own_key_;
 }
 
-void Planner::simulate_until_event() {
-    needed_ = true;
-    simulation_.ends_at_event = true;
+std::size_t Planner::add_motion(MotionRequest motion) {
+    plan_.motions.push_back(std::move(motion));
+    return plan_.motions.size() - 1;
+}
+
+sim::Request& Planner::run_until(double t) {
+    if (!plan_.run) plan_.run = add_motion({scene().problem, own_key()});
+    sim::Request& request = plan_.motions[*plan_.run].request;
+    request.end_time = std::max(request.end_time, t);
+    return request;
 }
 
 std::size_t Planner::add_table(std::vector<double> times, std::vector<sim::Channel> channels) {
-    simulation_.request.tables.push_back({std::move(times), std::move(channels)});
-    return simulation_.request.tables.size() - 1;
+    std::vector<sim::TableRequest>& tables = run_until(0).tables;
+    tables.push_back({std::move(times), std::move(channels)});
+    return tables.size() - 1;
 }
 
-void Planner::add(Pictures p, double end) {
-    p.end_time = end;
-    if (const auto found = existing_.frames.find(p.output); found != existing_.frames.end()) p.existing = found->second;
-    const bool still = p.kind == Pictures::Kind::still;
-    p.collisions = shows_collisions(p, scene_.problem);
-    const bool moves_by_events = std::ranges::any_of(p.view.keyframes, &Instant::is_event, &Keyframe::at);
-    p.times_known = !p.collisions && !moves_by_events && (still ? !p.at.is_event() : !p.span.needs_events());
-    p.chart_channels = render::chart_channels(panels_of(p, scene_.problem));
+void Planner::add(const ResolvedOutput& picture) {
+    Pictures p;
+    static_cast<PictureOutput&>(p) = std::get<PictureOutput>(picture.output);
+    p.output = picture.index;
+    p.end_time = picture.end_time;
+    p.times = picture.times;
+    if (p.kind == PictureOutput::Kind::video) p.poster_file = poster_file(p);
+    const auto existing = existing_.frames.find(p.output);
+    std::size_t kept = 0;
+    for (int k = 0; k < static_cast<int>(p.times.frames.size()); ++k)
+        if (existing != existing_.frames.end() && existing->second.contains(p.times.first + k))
+            ++kept;
+        else
+            p.draw.push_back(k);
+    if (kept > 0) plan_.kept.push_back(fmt::format("{} of {}", counted(kept, "frame"), p.file));
+    if (p.draw.empty()) return;
     p.omitted_panels = omitted_panels(p);
-    FilmTimes times;
-    if (p.times_known) times = times_of(p, {});
-    if (const auto numbers = known_numbers(p, times)) {
-        const auto [first, count] = *numbers;
-        choose_frames(p, first, count);
-        if (!p.existing.empty())
-            plan_.kept.push_back(fmt::format("{} of {}", counted(p.existing.size(), "frame"), p.file));
-    }
-    if (p.compare.empty()) p.shown.push_back({.problem = scene_.problem, .key = simulation_.key, .of_scene = true});
+    const std::vector<render::PanelSpec> panels = panels_of(p, scene(), p.end_time);
+    if (p.compare.empty())
+        p.motions.push_back(add_motion({scene().problem, own_key(), request_of(p, scene().problem, panels)}));
     for (const Compared& each : p.compare)
-        p.shown.push_back({.problem = each.problem, .key = motion_key(each.problem), .label = each.label});
-    for (Study& motion : p.shown) {
-        add_requests(p, motion);
-        add_study(motion, p.ends_at_event(), motion.label);
-    }
-    if (p.times_known)
-        put_times(p, std::move(times));
-    else
-        find_events(end, !p.ends_at_event());
+        p.motions.push_back(add_motion(
+            {each.problem, motion_key(each.problem), request_of(p, each.problem, panels), each.label, p.file}));
     plan_.pictures.push_back(std::move(p));
 }
 
-// The times follow (put_times).
-void Planner::add_requests(const Pictures& p, Study& motion) const {
-    motion.request.end_time = p.end_time;
-    motion.request.horizon = p.horizon;
-    motion.request.poses = {{}, survey(), {}};
-    motion.request.tables = {{{}, p.chart_channels, drawn_curve(panels_of(p, scene_.problem)), kCurveStray}};
-    if (motion.problem.cam) motion.request.tables.push_back({{}, kTraceChannels});
-}
-
-void Planner::add(FigureFile figure) {
-    for (const Study& study : figure.studies) add_study(study, figure.ends_at_event);
-    plan_.figures.push_back(std::move(figure));
-}
-
-void Planner::find_events(double until, bool all) {
-    plan_.events_until = std::max(plan_.events_until.value_or(0), until);
-    plan_.all_events = plan_.all_events || all;
-}
-
-// Studies of the same motion share one simulation.
-void Planner::add_study(const Study& study, bool ends_at_event, const std::string& label) {
-    if (study.of_scene) {
-        ends_at_event ? simulate_until_event() : simulate_until(end_of(study.request));
-        simulation_.horizon = simulation_.horizon || study.request.horizon;
-        return;
+void Planner::add(FigureFile figure, FigureMaker maker, std::vector<MotionRequest> motions) {
+    for (MotionRequest& motion : motions) {
+        motion.file = motion.key == own_key() ? "" : figure.file;
+        figure.motions.push_back(add_motion(std::move(motion)));
     }
-    auto same = std::ranges::find(plan_.others, study.key, &PlannedMotion::key);
-    if (same == plan_.others.end()) same = plan_.others.insert(same, {study.problem, study.key});
-    same->simulate_until(end_of(study.request));
-    if (!label.empty()) same->label = label;
-    same->horizon = same->horizon || study.request.horizon;
+    plan_.figures.push_back(std::move(figure));
+    plan_.makers.push_back(std::move(maker));
+}
+
+PlanWithFigures plan(const ResolvedScene& scene, const Shard& shard, const ExistingWork& existing) {
+    return Planner(scene, shard, existing).make();
+}
+
+double run_end(const Scene& scene) {
+    double end = scene.end_time;
+    for (const Output& output : scene.outputs) {
+        if (const auto* table = std::get_if<TrajectoryOutput>(&output)) end = std::max(end, latest(table->times));
+        if (const auto* shapes = std::get_if<ShapesOutput>(&output)) end = std::max(end, latest(shapes->times));
+        if (const auto* state = std::get_if<StateOutput>(&output)) end = std::max(end, state->at);
+    }
+    return end;
 }
 
 }  // namespace beamcam::scenes

@@ -11,17 +11,15 @@
 namespace beamcam::scenes {
 
 // SHA-256 of everything that the files of one output depend on: an input that it misses would keep an outdated file.
-// `until`: end of the run, for outputs about the whole run. `part`: of a sweep, "2/3"; empty: all.
-std::string inputs_key(const Scene& scene, std::size_t output, double until, const std::string& part);
+// `part`: of a sweep; empty: all.
+std::string inputs_key(const Scene& scene, std::size_t output, const std::string& part = {});
 
-struct UpToDate {
-    ExistingWork existing;
-    std::vector<std::string> inputs;  // key of each output of the scene; empty for standard output
-};
+// The key of each output of the scene; empty for standard output.
+std::vector<std::string> inputs_keys(const Scene& scene, const Shard& shard);
 
-// `directory` as in RunOptions. `ignore_files`: no file counts as up to date.
-UpToDate check_up_to_date(const Scene& scene, const Shard& shard, const std::string& directory,
-                          output::FileList& file_list, bool ignore_files);
+// `directory` as in RunOptions.
+ExistingWork find_existing(const Scene& scene, const std::vector<std::string>& inputs, const Shard& shard,
+                           const std::string& directory, output::FileList& file_list);
 
 // The path of an output's file; with an empty `directory` the name is the path.
 std::filesystem::path place_of(const std::string& directory, const std::string& file);

@@ -8,6 +8,8 @@
 #include "output/files/errors.hpp"
 #include "render/base/error.hpp"
 #include "scenes/motions/identity.hpp"
+#include "scenes/outputs/data_outputs.hpp"
+#include "sim/observe/recorder.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -50,68 +52,76 @@ EntryTest::EntryTest(const Baselines& baselines, const Baseline& entry, const Re
 
 void EntryTest::prepare() {
     const Scene& scene = test_.entry.scene;
-    plan_ = plan(scene);
-    resolve_event_times(plan_, scene, [](const sim::Problem& problem, const sim::Request& events) {
+    plan_ = plan(resolve(scene, [](const sim::Problem& problem, const sim::Request& events) {
         return sim::simulate(problem, events, until_interrupted);
-    });
+    }));
     // A picture that compares other motions than the scene's own needs no simulation of the scene. A figure of statics
     // needs no motion at all.
-    if (!plan_.simulation) {
-        double& until =
-            plan_.simulation.emplace(PlannedMotion{scene.problem, motion_key(scene.problem)}).request.end_time;
-        for (const Pictures& p : plan_.pictures) until = std::max(until, p.end_time);
-        for (const PlannedMotion& other : plan_.others) until = std::max(until, other.request.end_time);
-        if (plan_.pictures.empty() && plan_.others.empty() && !plan_.figures.empty()) test_.result.motion.reset();
+    if (plan_.motions.empty() && !plan_.figures.empty()) test_.result.motion.reset();
+    const std::string own = motion_key(scene.problem);
+    until_ = 0;
+    const bool has_own = std::ranges::count(plan_.motions, own, &MotionRequest::key) > 0;
+    for (const MotionRequest& each : plan_.motions)
+        if (!has_own || each.key == own) until_ = std::max(until_, end_of(each.request));
+    if (!plan_.run) {
+        plan_.run = plan_.motions.size();
+        plan_.motions.push_back({scene.problem, own});
     }
-    until_ = plan_.simulation->request.end_time;
-    if (test_.references.is_updated()) plan_.simulation->request.horizon = true;  // some figures request it anyway
+    sim::Request& run = run_request();
+    run.end_time = until_;
+    if (test_.references.is_updated()) run.horizon = true;  // some figures request it anyway
     request_record();
     if (needs_motion()) request_compared_records();
-    requests_ = requests_of(plan_);
+}
+
+void EntryTest::request(MotionPool& pool) {
+    requests_.clear();
+    for (const MotionRequest& each : plan_.motions) requests_.push_back(pool.add(each));
 }
 
 // The table of the entry itself is recorded if it is one, else a small one.
 void EntryTest::request_record() {
-    std::vector<sim::TableRequest>& tables = plan_.simulation->request.tables;
-    const auto own = std::ranges::find_if(plan_.data, [](const DataFile& d) { return d.table.has_value(); });
-    recorded_ = own != plan_.data.end() ? *own->table : tables.size();
-    if (own == plan_.data.end() && needs_motion())
-        tables.push_back(motion_behind_picture(test_.entry.scene.problem, until_));
+    std::vector<sim::TableRequest>& tables = run_request().tables;
+    const bool is_table = std::holds_alternative<TrajectoryOutput>(test_.entry.output());
+    recorded_ = is_table ? plan_.data.front().tables.front() : tables.size();
+    if (!is_table && needs_motion()) tables.push_back(motion_behind_picture(test_.entry.scene.problem, until_));
     if (records_all_channels(test_.entry))
         std::erase_if(tables[recorded_].channels,
                       [](const sim::Channel& channel) { return channel.kind == sim::ChannelKind::energy_residual; });
 }
 
 void EntryTest::request_compared_records() {
-    for (Pictures& p : plan_.pictures)
+    for (const Pictures& p : plan_.pictures)
         for (std::size_t i = 0; i < p.compare.size(); ++i) {
-            Study& other = p.shown[i];
+            MotionRequest& other = plan_.motions[p.motions[i]];
             other.request.tables.push_back(motion_behind_picture(other.problem, p.end_time));
             if (test_.references.is_updated()) other.request.horizon = true;
         }
 }
 
-void EntryTest::judge(std::vector<sim::Result> results, RunOptions options) {
-    const sim::Result& run = results.front();
+void EntryTest::judge(MotionPool& pool, const RunOptions& options) {
+    std::vector<sim::Result> results;
+    for (const std::size_t request : requests_) results.push_back(pool.take(request));
+    const sim::Result& run = results[*plan_.run];
     const Output& output = test_.entry.output();
     if (test_.result.picture || std::holds_alternative<SummaryOutput>(output) ||
         std::holds_alternative<StateOutput>(output))
         require_reproducible(run, until_);
-    if (needs_motion()) motion_.judge(0, "", run.tables[recorded_], run.impacts, until_, run.reproducible_until);
+    if (needs_motion()) {
+        motion_.judge(0, "", run.tables[recorded_], run.impacts, until_, run.reproducible_until);
+        for (const Pictures& p : plan_.pictures)
+            for (std::size_t i = 0; i < p.compare.size(); ++i) {
+                const sim::Result& other = results[p.motions[i]];
+                require_reproducible(other, p.end_time);
+                motion_.judge(i + 1, p.compare[i].label + ": ", other.tables.back(), other.impacts, p.end_time,
+                              other.reproducible_until);
+            }
+    }
     judge_numbers(run);
     DrawCallbacks callbacks{
-        std::move(results),
         [&](const Pictures&, long frame, const render::Image& image) { pictures_.judge(frame, image); },
-        [&](const render::Image& image) { pictures_.judge(0, image); },
-        {}};
-    if (needs_motion())
-        callbacks.compared = [&](std::size_t picture, std::size_t index, const sim::Result& result) {
-            const Pictures& shown = plan_.pictures[picture];
-            require_reproducible(result, shown.end_time);
-            motion_.judge(index + 1, shown.compare[index].label + ": ", result.tables.back(), result.impacts,
-                          shown.end_time, result.reproducible_until);
-        };
-    scenes::draw(plan_, test_.entry.scene, callbacks, options);
+        [&](const render::Image& image) { pictures_.judge(0, image); }};
+    scenes::draw(plan_, test_.entry.scene, std::move(results), callbacks, options);
     if (test_.result.picture) pictures_.conclude();
     update();
 }
@@ -121,10 +131,8 @@ void EntryTest::judge_numbers(const sim::Result& run) {
     if (name.empty()) return;
     motion_.judge_numbers(name, [&](const output::Target& file) {
         const output::Work work;
-        Progress silent(ProgressStyle::none);
-        const PlannedMotion& simulation = *plan_.simulation;
         for (const DataFile& data : plan_.data)
-            data.write({simulation.problem, simulation.request, run, work, &file, nullptr, silent});
+            write_data(data, {test_.entry.scene, run_request(), run, work, &file, nullptr});
     });
 }
 
@@ -151,7 +159,7 @@ void EntryTest::require_reproducible(const sim::Result& motion, double until) co
 double EntryTest::last_shown() const {
     double last = 0;
     for (const Pictures& p : plan_.pictures)
-        for (const double t : plan_.times(p)) last = std::max(last, t);
+        for (const double t : p.times.frames) last = std::max(last, t);
     return last;
 }
 

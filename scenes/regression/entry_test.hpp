@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "output/data/file_list.hpp"
+#include "scenes/motions/motion_pool.hpp"
 #include "scenes/plan/plan.hpp"
 #include "scenes/regression/entry_motion.hpp"
 #include "scenes/regression/entry_pictures.hpp"
@@ -28,8 +29,8 @@ class EntryTest {
     // An entry with a motion: plans it. The plan is its own, so that the pictures do not depend on other entries; it
     // may share the integration with them.
     void prepare();
-    const std::vector<sim::Request>& requests() const { return requests_; }  // of the plan
-    void judge(std::vector<sim::Result> results, RunOptions options);        // of these requests
+    void request(MotionPool& pool);  // the motions of the plan
+    void judge(MotionPool& pool, const RunOptions& options);
     void judge_sweep(int threads, Progress& progress);
 
     // Runs `work`; its errors fail this entry alone. False: it failed.
@@ -37,6 +38,7 @@ class EntryTest {
 
   private:
     bool needs_motion() const { return test_.result.motion.has_value(); }
+    sim::Request& run_request() { return plan_.motions[*plan_.run].request; }  // of the scene's motion
     void request_record();
     void request_compared_records();
     void judge_numbers(const sim::Result& run);
@@ -52,10 +54,10 @@ class EntryTest {
     EntryContext test_;
     EntryPictures pictures_;
     EntryMotion motion_;
-    Plan plan_;
-    std::vector<sim::Request> requests_;
-    std::size_t recorded_ = 0;  // index of the recorded table in the plan's request
-    double until_ = 0;          // the last instant that the entry depends on [s]
+    PlanWithFigures plan_;
+    std::vector<std::size_t> requests_;  // numbers of the plan's motions in the pool
+    std::size_t recorded_ = 0;           // index of the recorded table in the plan's request
+    double until_ = 0;                   // the last instant that the entry depends on [s]
 };
 
 }  // namespace beamcam::scenes

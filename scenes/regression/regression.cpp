@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <atomic>
-#include <iterator>
 #include <memory>
 
 #include "output/files/atomic_file.hpp"
@@ -12,6 +11,7 @@
 #include "scenes/motions/fan_out.hpp"
 #include "scenes/motions/fingerprint.hpp"
 #include "scenes/motions/identity.hpp"
+#include "scenes/motions/motion_pool.hpp"
 #include "scenes/regression/entry_test.hpp"
 #include "scenes/scene/exit_code.hpp"
 #include "sim/base/clock.hpp"
@@ -94,12 +94,11 @@ class Regression {
     void run_group(Group group, const RunOptions& options) {
         std::erase_if(group, [](EntryTest* test) { return !test->attempt([&] { test->prepare(); }); });
         if (group.empty()) return;
-        std::vector<sim::Request> requests;
-        for (const EntryTest* test : group)
-            requests.insert(requests.end(), test->requests().begin(), test->requests().end());
-        std::vector<sim::Result> results;
+        Progress silent(ProgressStyle::none);
+        MotionPool pool(silent, {.threads = options.threads, .quiet = true});
+        for (EntryTest* test : group) test->request(pool);
         try {
-            results = sim::simulate(group.front()->entry().scene.problem, requests, until_interrupted);
+            pool.compute();
         } catch (const sim::SolverError& error) {
             if (group.size() == 1) group.front()->attempt([&] { throw error; });
             for (EntryTest* test : group)  // the integration may succeed for an entry that ends earlier
@@ -107,13 +106,10 @@ class Regression {
             return;
         }
         ++simulations_;
-        auto next = std::make_move_iterator(results.begin());
         for (EntryTest* test : group) {
-            const auto last = next + std::ssize(test->requests());
             const auto started = Clock::now();
-            test->attempt([&] { test->judge({next, last}, options); });
+            test->attempt([&] { test->judge(pool, options); });
             test->result().seconds = seconds_since(started);
-            next = last;
         }
     }
 

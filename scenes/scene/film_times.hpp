@@ -62,6 +62,6 @@ int first_at(const std::vector<double>& frames, double t);
 // The times k / rate between `from` and `to`, and `to` itself.
 std::vector<double> rows(double from, double to, double rate);
 
-constexpr double kMostFrames = 250'000;  // more than an hour at 60 fps; their poses need 0.6 GB on disk
+constexpr double kMostFrames = 50'000;  // 14 minutes at 60 per second; their poses need 120 MB
 
 }  // namespace beamcam::scenes

@@ -13,7 +13,6 @@
 namespace beamcam::scenes {
 
 using render::Lang;
-class Planner;       // plan/planner.hpp
 class SceneVisitor;  // format/keys.hpp
 
 // The parts of a scene, besides its mechanics, that the files of an output type depend on. A file without the title
@@ -25,8 +24,8 @@ struct OutputInputs {
 // What determines the end of the motion that an output needs: its keys, the scene's end, or the run of all outputs.
 enum class Extent { keys, scene, run };
 
-// The output types. Each is implemented in one file in outputs/: `visit` describes its keys, `plan` adds its needs and
-// the writer of its file to the plan. A new type is such a file, a struct here, and an entry in Output.
+// The output types. Each is implemented in one file in outputs/: `visit` describes its keys, `plan` (plan/planner.hpp)
+// adds its needs to the plan. A new type is such a file, a struct here, and an entry in Output.
 
 // Pictures of the mechanism.
 struct PictureOutput : Picture {
@@ -43,7 +42,6 @@ struct PictureOutput : Picture {
     static PictureOutput of(Kind kind);
     Extent extent() const;
     void visit(SceneVisitor& v);
-    void plan(Planner& planner, std::size_t output) const;  // `output`: its index in the scene
 };
 struct PictureType {
     PictureOutput::Kind kind;
@@ -66,7 +64,6 @@ struct TrajectoryOutput {
 
     Extent extent() const { return times.empty() ? Extent::scene : Extent::keys; }
     void visit(SceneVisitor& v);
-    void plan(Planner& planner, std::size_t output) const;
 };
 struct ShapesOutput {
     static constexpr const char *kType = "shapes",
@@ -79,7 +76,6 @@ struct ShapesOutput {
 
     Extent extent() const { return times.empty() ? Extent::scene : Extent::keys; }
     void visit(SceneVisitor& v);
-    void plan(Planner& planner, std::size_t output) const;
 };
 struct ImpactsOutput {
     static constexpr const char *kType = "impacts", *kMeaning = "All impacts and collisions.";
@@ -88,7 +84,6 @@ struct ImpactsOutput {
 
     Extent extent() const { return Extent::run; }
     void visit(SceneVisitor& v);
-    void plan(Planner& planner, std::size_t output) const;
 };
 // A scene that continues the motion from an instant.
 struct StateOutput {
@@ -100,7 +95,6 @@ struct StateOutput {
 
     Extent extent() const { return Extent::scene; }
     void visit(SceneVisitor& v);
-    void plan(Planner& planner, std::size_t output) const;
 };
 struct SummaryOutput {
     static constexpr const char *kType = "summary", *kMeaning = "Counts, extrema, energy balance, warnings.";
@@ -110,7 +104,6 @@ struct SummaryOutput {
 
     Extent extent() const { return Extent::run; }
     void visit(SceneVisitor& v);
-    void plan(Planner& planner, std::size_t output) const;
 };
 struct SweepOutput {
     static constexpr const char *kType = "sweep",
@@ -120,7 +113,6 @@ struct SweepOutput {
 
     Extent extent() const { return Extent::keys; }
     void visit(SceneVisitor& v);
-    void plan(Planner& planner, std::size_t output) const;
 };
 // A curve that is a sum of channels of one unit; channels without values add nothing.
 struct SeriesSum {
@@ -184,7 +176,6 @@ struct FigureOutput {
         return ends ? Extent::keys : Extent::scene;
     }
     void visit(SceneVisitor& v);
-    void plan(Planner& planner, std::size_t output) const;
 };
 using Output = std::variant<PictureOutput, FigureOutput, TrajectoryOutput, ShapesOutput, ImpactsOutput, StateOutput,
                             SweepOutput, SummaryOutput>;

@@ -358,25 +358,20 @@ TEST(Steadiness, TheTrailOfAFastTurnIsRound) {
 
 namespace {
 
-class Poses final : public PoseStore {
-  public:
-    Poses(const FilmSetup& setup, const std::vector<double>& times, const std::function<double(double)>& angle) {
-        for (const double t : times) all_.push_back(turned(setup.poses.front(), setup, t, angle(t)));
-    }
-    static sim::Pose turned(sim::Pose pose, const FilmSetup& setup, double t, double angle) {
-        const double last = double(pose.centreline.size() - 1);
-        pose.t = t, pose.theta = angle;
-        for (std::size_t i = 0; i < pose.centreline.size(); ++i)
-            pose.centreline[i] = sim::unit(angle) * (setup.problem.beam.length * double(i) / last);
-        return pose;
-    }
-    std::size_t size() const override { return all_.size(); }
-    double time(std::size_t k) const override { return all_[k].t; }
-    sim::Pose pose(std::size_t k) const override { return all_[k]; }
+sim::Pose turned(sim::Pose pose, const FilmSetup& setup, double t, double angle) {
+    const double last = double(pose.centreline.size() - 1);
+    pose.t = t, pose.theta = angle;
+    for (std::size_t i = 0; i < pose.centreline.size(); ++i)
+        pose.centreline[i] = sim::unit(angle) * (setup.problem.beam.length * double(i) / last);
+    return pose;
+}
 
-  private:
-    std::vector<sim::Pose> all_;
-};
+std::vector<sim::Pose> poses_at(const FilmSetup& setup, const std::vector<double>& times,
+                                const std::function<double(double)>& angle) {
+    std::vector<sim::Pose> all;
+    for (const double t : times) all.push_back(turned(setup.poses.front(), setup, t, angle(t)));
+    return all;
+}
 
 std::vector<double> times_between(double from, double to, double rate) {
     std::vector<double> out;
@@ -388,10 +383,10 @@ std::vector<double> times_between(double from, double to, double rate) {
 FilmSetup led_film(double from, double fps, const std::function<double(double)>& angle) {
     FilmSetup setup = film_of(Style::flat, {.duration = 1, .fps = fps, .cam = false});
     const sim::Pose first = setup.poses.front();
-    for (sim::Pose& pose : setup.poses) pose = Poses::turned(first, setup, from + pose.t, angle(from + pose.t));
+    for (sim::Pose& pose : setup.poses) pose = turned(first, setup, from + pose.t, angle(from + pose.t));
     std::vector<double> surveyed = times_between(from, from + 1, 200);
     surveyed.push_back(from + 0.5);  // samples of collisions come last
-    setup.survey = std::make_shared<Poses>(setup, surveyed, angle);
+    setup.survey = poses_at(setup, surveyed, angle);
     return setup;
 }
 
@@ -410,7 +405,7 @@ TEST(Steadiness, TheTrailFollowsThePosesBetweenFrames) {
     const auto angle = [](double t) { return 0.5 * std::pow(std::sin(5 * 3.14159265358979 * t), 2); };
     FilmSetup setup = led_film(0, 5, angle);
     EXPECT_FALSE(is_painted_at_tip(setup, 3, 0.3));
-    setup.path = std::make_shared<Poses>(setup, times_between(0, 1, 60), angle);
+    setup.path = poses_at(setup, times_between(0, 1, 60), angle);
     EXPECT_TRUE(is_painted_at_tip(setup, 3, 0.3));
 }
 

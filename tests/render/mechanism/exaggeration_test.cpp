@@ -73,24 +73,15 @@ TEST(Exaggeration, FactorOneIsTheTruth) {
     EXPECT_EQ(drawn_beam(film.problem, pose, 1, beam_depth(film.problem.beam)).line, pose.centreline);
 }
 
-struct Held final : PoseStore {
-    std::vector<sim::Pose> poses;
-    std::size_t size() const override { return poses.size(); }
-    double time(std::size_t k) const override { return poses[k].t; }
-    sim::Pose pose(std::size_t k) const override { return poses[k]; }
-};
-
 TEST(Exaggeration, FilmsOfOneMotionAgreeWhateverTheirFramesAre) {
     FilmSetup all = test::synthetic_film();
-    const auto survey = std::make_shared<Held>();
-    survey->poses = all.poses;
-    all.survey = survey;
+    all.survey = all.poses;
     all.width = 640, all.height = 360;
     all.view.style = Style::flat;
     FilmSetup few = all, alone = all;
     few.poses = {all.poses[1], all.poses[3]};
     alone.poses = few.poses;
-    alone.survey.reset();
+    alone.survey.clear();
     Film a(std::move(all)), b(std::move(few)), c(std::move(alone));
     EXPECT_EQ(a.exaggeration(), b.exaggeration());
     EXPECT_EQ(a.geometry(1).camera.scale, b.geometry(0).camera.scale);

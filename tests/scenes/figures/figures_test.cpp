@@ -28,21 +28,22 @@ using testing::shell;
 using ::testing::StartsWith;
 
 TEST(Figures, SchematicAndDeflectionIntegrateNothing) {
-    const Plan p = plan(scene_from(R"({"outputs": [{"type": "figure", "figure": "schematic"},
-                                              {"type": "figure", "figure": "deflection"}]})"));
-    EXPECT_FALSE(p.simulation);
-    EXPECT_TRUE(p.others.empty());
+    const Scene scene = scene_from(R"({"outputs": [{"type": "figure", "figure": "schematic"},
+                                              {"type": "figure", "figure": "deflection"}]})");
+    const Plan p = plan(resolve(scene, {}));
+    EXPECT_TRUE(p.motions.empty());
     EXPECT_FALSE(p.needs_gl());
     EXPECT_EQ(p.figures.size(), 2u);
 }
 
 TEST(Figures, ShareOneSimulationWithEachOtherAndWithTables) {
-    const Plan p =
-        plan(scene_from(R"({"outputs": [{"type": "figure", "figure": "energy"}, {"type": "figure", "figure": "phase"},
-        {"type": "figure", "figure": "angle"}, {"type": "trajectory"}]})"));
-    ASSERT_TRUE(p.simulation);
-    EXPECT_TRUE(p.others.empty());
-    EXPECT_TRUE(p.simulation->horizon);
+    const Scene scene =
+        scene_from(R"({"outputs": [{"type": "figure", "figure": "energy"}, {"type": "figure", "figure": "phase"},
+        {"type": "figure", "figure": "angle"}, {"type": "trajectory"}]})");
+    const Plan p = plan(resolve(scene, {}));
+    ASSERT_EQ(p.motions.size(), 4u);
+    for (const MotionRequest& each : p.motions) EXPECT_EQ(each.key, p.motions.front().key);
+    EXPECT_TRUE(std::ranges::any_of(p.motions, [](const MotionRequest& each) { return each.request.horizon; }));
 }
 
 TEST(Figures, EqualPhysicsIsOneStudy) {
@@ -171,7 +172,8 @@ TEST(Presets, AreListedWithTheFigures) {
 TEST(Presets, OfOnesOwnWorkAsThoseOfTheProgram) {
     const Folder folder;
     folder.write("s.json", R"({"time": {"end": 0.4}})");
-    folder.write("k.json", R"({"time": {"end": 0.4}, "outputs": [{"type": "figure", "figure": "energy", "file": "k.svg"}]})");
+    folder.write("k.json",
+                 R"({"time": {"end": 0.4}, "outputs": [{"type": "figure", "figure": "energy", "file": "k.svg"}]})");
     folder.write("mine.json", testing::slurp(BEAMCAM_TEST_DIR "/../scenes/presets/energy.json"));
     const Finished made = shell(folder,
                                 "$BEAMCAM figure s.json energy -o a.svg -q && $BEAMCAM run k.json -q && "
@@ -194,7 +196,8 @@ TEST(Presets, WithMistakesAreReported) {
         return made.err;
     };
     EXPECT_THAT(refusal(R"({"figure": "series", "chanels": ["theta"]})"), HasSubstr("chanels"));
-    EXPECT_THAT(refusal(R"({"figure": "serious", "channels": ["theta"]})"), HasSubstr("there is no figure \"serious\""));
+    EXPECT_THAT(refusal(R"({"figure": "serious", "channels": ["theta"]})"),
+                HasSubstr("there is no figure \"serious\""));
     EXPECT_THAT(refusal(R"({"channels": ["thetta"]})"), HasSubstr("did you mean \"theta\"?"));
     EXPECT_THAT(refusal("[1]"), HasSubstr("a preset is an object"));
     EXPECT_THAT(refusal(R"({"figure": )"), HasSubstr("mine.json:1:"));
@@ -353,11 +356,11 @@ TEST(Figures, OptionsOfOtherFiguresAreNamedAsTheyWereGiven) {
 
 TEST(Figures, AskWhetherTheVariantsTheyComputeArePossible) {
     // A type that removes the cam without asking.
-    const FigureType careless{
-        "careless", "", no_refusal, [](const Scene& s, const FigureOutput&, Studies& studies) -> FigureDrawing {
-            studies.of(without_cam(s.problem), s.end_time);
-            return {};
-        }};
+    const FigureType careless{"careless", "", no_refusal,
+                              [](const Scene& s, const FigureOutput&, Studies& studies) -> FigureDrawing {
+                                  studies.of(without_cam(s.problem), s.end_time);
+                                  return {};
+                              }};
     const auto why = refusal_of(careless, scene_from(R"({"initial": {"shape": "resting"}})"));
     ASSERT_TRUE(why);
     EXPECT_THAT(*why, HasSubstr("initial.shape"));

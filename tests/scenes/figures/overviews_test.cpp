@@ -83,12 +83,10 @@ TEST(Overviews, AStillOfLinesIsAStrobeOfOneInstant) {
 }
 
 Plan resolved_plan(const Scene& scene, const RejectOutput& reject = {}) {
-    Plan made = plan(scene);
-    resolve_event_times(
-        made, scene,
-        [](const sim::Problem& problem, const sim::Request& request) { return sim::simulate(problem, request); },
-        reject);
-    return made;
+    const auto find = [](const sim::Problem& problem, const sim::Request& request) {
+        return sim::simulate(problem, request);
+    };
+    return plan(resolve(scene, {}, find, reject));
 }
 
 TEST(Stretch, BeginsAndEndsAtEventsOfTheFirstMotion) {
@@ -105,11 +103,11 @@ TEST(Stretch, BeginsAndEndsAtEventsOfTheFirstMotion) {
         return sim::simulate(problem, request);
     };
     const sim::Result own = impacts_of(reading.scene->problem);
-    EXPECT_EQ(plan(*reading.scene).events_until, 1);
+    EXPECT_EQ(events_until(reading.scene->outputs[0], *reading.scene), 1);
     const Plan made = resolved_plan(*reading.scene);
     ASSERT_EQ(made.figures.size(), 4u);
     const auto times = [&](std::size_t figure) {
-        return made.figures[figure].studies.at(0).request.tables.at(0).times;
+        return made.motions.at(made.figures[figure].motions.at(0)).request.tables.at(0).times;
     };
     EXPECT_NEAR(times(0).front(), own.impacts[0].t_start, 1e-12);
     // The apex: the hub is at rest between the first collision and the next.
@@ -120,9 +118,9 @@ TEST(Stretch, BeginsAndEndsAtEventsOfTheFirstMotion) {
     at_apex.end_time = apex;
     at_apex.tables = {{{apex}, {{sim::ChannelKind::theta_dot, 0}}}};
     EXPECT_NEAR(sim::simulate(reading.scene->problem, at_apex).tables[0].values[0][0], 0, 1e-6);
-    const auto& released = made.figures[1].studies.at(0).request;
+    const auto& released = made.motions.at(made.figures[1].motions.at(0)).request;
     EXPECT_NEAR(released.end_time, *own.impacts[0].t_end, 1e-12);
-    EXPECT_EQ(made.figures[2].studies.at(0).request.end_time, 1);
+    EXPECT_EQ(made.motions.at(made.figures[2].motions.at(0)).request.end_time, 1);
     const sim::Result higher = impacts_of(made.figures[3].studies.at(0).problem);
     ASSERT_GT(std::abs(higher.collisions[0].t_start - own.collisions[0].t_start), 1e-4);
     EXPECT_NEAR(times(3).front(), higher.collisions[0].t_start, 1e-12);
@@ -168,13 +166,15 @@ TEST(Stretch, ThatEndsAtAnEventIsIntegratedNoFurther) {
     const auto ends = [](const std::string& outputs, double& searched) {
         const Reading reading = testing::read(R"({"time": {"end": 2}, "outputs": [)" + outputs + "]}");
         EXPECT_TRUE(reading.scene) << reading.report();
-        Plan made = plan(*reading.scene);
-        resolve_event_times(made, *reading.scene, [&](const sim::Problem& problem, const sim::Request& request) {
+        const auto find = [&](const sim::Problem& problem, const sim::Request& request) {
             sim::Result found = sim::simulate(problem, request);
             searched = found.end_time;
             return found;
-        });
-        return made.simulation ? made.simulation->request.end_time : made.pictures[0].end_time;
+        };
+        const Plan made = plan(resolve(*reading.scene, find));
+        double end = 0;
+        for (const MotionRequest& each : made.motions) end = std::max(end, each.request.end_time);
+        return end;
     };
     sim::Request all;
     all.end_time = 2;

@@ -16,7 +16,7 @@ inline render::figure::Figure simulated(const Scene& scene, const FigureOutput& 
     Studies studies;
     const FigureMaker make = figure_type(how.figure)->prepare(scene, how, studies);
     std::vector<sim::Result> made;
-    for (const Study& study : studies.take()) made.push_back(sim::simulate(study.problem, study.request));
+    for (const MotionRequest& study : studies.take()) made.push_back(sim::simulate(study.problem, study.request));
     Results results;
     for (const sim::Result& result : made) results.studies.push_back(&result);
     return make(results);
@@ -43,8 +43,7 @@ inline FigureOutput in(Lang lang) {
 
 // A figure or a preset by its name.
 inline render::figure::Figure figure_of(const Scene& s, const char* name, Lang lang = Lang::en) {
-    const Node output =
-        object_node({{"type", "figure"}, {"figure", name}, {"lang", lang == Lang::en ? "en" : "zh"}});
+    const Node output = object_node({{"type", "figure"}, {"figure", name}, {"lang", lang == Lang::en ? "en" : "zh"}});
     Scene scene = s;
     std::vector<Message> messages;
     if (!read_only_output(output, "s.json", "", scene, messages)) throw std::runtime_error(messages.front().text);

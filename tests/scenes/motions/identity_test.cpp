@@ -205,7 +205,7 @@ Identities identities(const Scene& scene) {
     Identities all;
     all.motion.insert("scene " + motion_key(scene.problem));
     for (std::size_t i = 0; i < scene.outputs.size(); ++i) {
-        all.outputs.push_back(inputs_key(scene, i, scene.end_time, ""));
+        all.outputs.push_back(inputs_key(scene, i));
         const std::vector<Compared> compared = compared_in(scene.outputs[i]);
         for (std::size_t k = 0; k < compared.size(); ++k)
             all.motion.insert(fmt::format("outputs.{}.compare.{} {}", i, k, motion_key(compared[k].problem)));

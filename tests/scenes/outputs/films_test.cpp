@@ -127,11 +127,10 @@ TEST(Films, EventsAreInstantsWhereverATimeIs) {
         {"type": "still", "file": "b.png", "at": "release:2"}, {"type": "still", "file": "c.png", "at": "last"},
         {"type": "frames", "file": "d-##.png", "fps": 50, "from": "touch", "to": "apex:1"}]})");
     ASSERT_TRUE(reading.scene) << reading.report();
-    Plan made = plan(*reading.scene);
     sim::Result motion;
-    resolve_event_times(made, *reading.scene, [&](const sim::Problem& problem, const sim::Request& request) {
+    const Plan made = plan(resolve(*reading.scene, [&](const sim::Problem& problem, const sim::Request& request) {
         return motion = sim::simulate(problem, request);
-    });
+    }));
     ASSERT_GE(motion.impacts.size(), 2u);
     double highest = 0, apex = 0;  // of the first rebound, by every apex of the ripple
     for (const sim::Apex& each : motion.apexes)
@@ -139,10 +138,10 @@ TEST(Films, EventsAreInstantsWhereverATimeIs) {
             each.theta > highest)
             highest = each.theta, apex = each.t;
     EXPECT_GT(apex, 0.4);
-    EXPECT_EQ(made.times(made.pictures.at(0)).front(), apex);
-    EXPECT_EQ(made.times(made.pictures.at(1)).front(), motion.impacts[1].t_end);
-    EXPECT_EQ(made.times(made.pictures.at(2)).front(), 1);
-    const std::vector<double>& frames = made.times(made.pictures.at(3));
+    EXPECT_EQ(made.pictures.at(0).times.frames.front(), apex);
+    EXPECT_EQ(made.pictures.at(1).times.frames.front(), motion.impacts[1].t_end);
+    EXPECT_EQ(made.pictures.at(2).times.frames.front(), 1);
+    const std::vector<double>& frames = made.pictures.at(3).times.frames;
     EXPECT_NEAR(frames.front(), motion.impacts[0].t_start, 0.5 / 50);
     EXPECT_NEAR(frames.back(), apex, 1.5 / 50);
     EXPECT_THAT(to_json(*reading.scene), HasSubstr("\"from\": \"impact:1\""));
@@ -304,46 +303,32 @@ TEST(Films, AHubOverTheCamIsRefused) {
     EXPECT_TRUE(beside.scene);
 }
 
-TEST(Films, APosterAtAnImpactLeavesTheNumberOfFramesKnown) {
-    const Reading reading =
-        testing::read(R"({"time": {"end": 0.5}, "outputs": [{"type": "video", "fps": 30, "poster": "impact:1"}]})");
-    ASSERT_TRUE(reading.scene);
-    EXPECT_EQ(plan(*reading.scene).pictures.front().draw.size(), 15u);
+TEST(Films, NeedTheEventsThatTheyNameAndTheImpactsAroundWhichTheySlowDown) {
+    const auto needs = [](const std::string& keys) {
+        const Reading reading = testing::read(R"({"outputs": [{"type": "video", )" + keys + "}]}");
+        EXPECT_TRUE(reading.scene) << reading.report();
+        return needs_events(reading.scene->outputs[0], *reading.scene);
+    };
+    EXPECT_FALSE(needs(R"("speed": 0.25)"));
+    EXPECT_TRUE(needs(R"("speed": {"around": "impacts"})"));
+    EXPECT_TRUE(needs(R"("poster": "impact:1")"));
+    // What shows collisions one by one, as very slow films do of themselves, has to know them.
+    EXPECT_TRUE(needs(R"("speed": 0.1)"));
+    EXPECT_TRUE(needs(R"("layout": {"panel": "contact_force", "window": "collision"})"));
+    // A close-up of one motion is not shown where several are compared.
+    EXPECT_FALSE(needs(R"("speed": 0.1, "compare": [{"label": "a"}, {"label": "b", "set": {"cam.speed": 2}}])"));
 }
 
-TEST(Films, ThePlanTellsWhyImpactsAreFoundFirst) {
+TEST(Films, SlowDownAroundTheImpactsThatARunFinds) {
     const Reading reading = testing::read(R"({"outputs": [{"type": "video", "speed": {"around": "impacts"}}]})");
     ASSERT_TRUE(reading.scene);
-    Plan p = plan(*reading.scene);
-    EXPECT_EQ(p.events_until, 1.5);
-    resolve_event_times(p, *reading.scene, [](const sim::Problem&, const sim::Request&) {
+    const Plan p = plan(resolve(*reading.scene, [](const sim::Problem&, const sim::Request&) {
         sim::Result result;
         result.impacts.resize(1);
         result.impacts[0].t_start = 0.3, result.impacts[0].t_end = 0.31;
         return result;
-    });
-    EXPECT_FALSE(p.events_until);
+    }));
     EXPECT_GT(p.pictures.front().draw.size(), 90u + 60u);  // real time, and 22 ms at a fiftieth
-}
-
-TEST(Films, RealTimeFilmsNeedNoFirstRun) {
-    const Reading reading = testing::read(R"({"outputs": [{"type": "video", "speed": 0.25}]})");
-    EXPECT_FALSE(plan(*reading.scene).events_until);
-    EXPECT_EQ(plan(*reading.scene).pictures.front().draw.size(), 360u);
-}
-
-// What shows collisions one by one, as very slow films do of themselves, has to know them.
-TEST(Films, ThoseOfCollisionsNeedAFirstRun) {
-    for (const char* keys : {R"("speed": 0.1)", R"("layout": {"panel": "contact_force", "window": "collision"})"}) {
-        const Reading reading = testing::read(std::string(R"({"outputs": [{"type": "video", )") + keys + "}]}");
-        ASSERT_TRUE(reading.scene) << keys;
-        EXPECT_EQ(plan(*reading.scene).events_until, 1.5) << keys;
-    }
-    // Nor is a close-up of one motion shown where several are compared.
-    const Reading both = testing::read(
-        R"({"outputs": [{"type": "video", "speed": 0.1, "compare": [{"label": "a"}, {"label": "b", "set": {"cam.speed": 2}}]}]})");
-    ASSERT_TRUE(both.scene);
-    EXPECT_FALSE(plan(*both.scene).events_until);
 }
 
 // ---- posters -----------------------------------------------------------------------------------
@@ -453,8 +438,7 @@ TEST(Films, EndBeforeStillsOfImpactsAndOfLaterInstants) {
 TEST(Films, ScalesComeFromTheSameInstantsAtAnyFrameRate) {
     const auto surveyed = [](const std::string& output) {
         const Reading reading = testing::read(R"({"time": {"end": 1}, "outputs": [)" + output + "]}");
-        const Plan made = plan(*reading.scene);
-        return made.pictures.front().shown.front().request.poses.at(kSurveyPoses).times;
+        return resolve(*reading.scene, {}).outputs.front().times.survey;
     };
     const auto thirty = surveyed(R"({"type": "video", "fps": 30, "from": 0.2, "to": 0.4})"),
                sixty = surveyed(R"({"type": "video", "fps": 60, "from": 0.2, "to": 0.4})");
@@ -468,13 +452,10 @@ TEST(Films, ScalesComeFromTheSameInstantsAtAnyFrameRate) {
 TEST(Films, AStillOfAnImpactIsExaggeratedAsTheFilmIs) {
     const Reading reading = testing::read(R"({"time": {"end": 1}, "outputs": [{"type": "still", "at": "impact:1"},
         {"type": "video", "fps": 30}]})");
-    Plan made = plan(*reading.scene);
-    resolve_event_times(made, *reading.scene, [](const sim::Problem& problem, const sim::Request& request) {
-        return sim::simulate(problem, request);
-    });
-    const auto survey = [&](std::size_t i) {
-        return made.pictures[i].shown.front().request.poses.at(kSurveyPoses).times;
-    };
+    const ResolvedScene resolved = resolve(
+        *reading.scene,
+        [](const sim::Problem& problem, const sim::Request& request) { return sim::simulate(problem, request); });
+    const auto survey = [&](std::size_t i) { return resolved.outputs[i].times.survey; };
     EXPECT_EQ(survey(0), survey(1));
 }
 
@@ -646,8 +627,8 @@ TEST(Films, TellOfWhatTheyWillNotShow) {
 TEST(Films, AFirstMotionWithoutACamHidesNoContactOfTheOthers) {
     const Reading reading = testing::read(R"({"time": {"end": 1}, "outputs": [{"type": "still", "at": 0.5,
         "compare": [{"label": "free", "set": {"cam": null}}, {"label": "cam"}]}]})");
-    const Plan made = plan(*reading.scene);
-    EXPECT_THAT(made.pictures.front().chart_channels,
+    const Plan made = plan(resolve(*reading.scene, {}));
+    EXPECT_THAT(made.motions.front().request.tables.at(kChartTable).channels,
                 ::testing::Contains(sim::Channel{sim::ChannelKind::contact_force, 0}));
 }
 

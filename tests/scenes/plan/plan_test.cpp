@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "scenes/scene/files.hpp"
+#include "sim/observe/recorder.hpp"
 #include "sim/run/simulate.hpp"
 #include "tests/scenes/support.hpp"
 
@@ -22,52 +23,64 @@ Scene scene_of(const std::string& text) {
 }
 
 Plan plan_of(const std::string& outputs, const std::string& physics = "") {
-    return plan(scene_of("{" + physics + "\"outputs\": " + outputs + "}"));
+    return plan(resolve(scene_of("{" + physics + "\"outputs\": " + outputs + "}"), {}));
 }
 
-const sim::Request& shown_by(const Pictures& pictures) { return pictures.shown.front().request; }
+const sim::Request& run_of(const Plan& p) { return p.motions.at(p.run.value()).request; }
 
-std::string text_of(const std::string& scene_text) {
+// Of the first motion of the first picture.
+const sim::Request& shown_in(const Plan& p) { return p.motions.at(p.pictures.at(0).motions.at(0)).request; }
+
+double end_of_motions(const Plan& p) {
+    double end = 0;
+    for (const MotionRequest& each : p.motions) end = std::max(end, end_of(each.request));
+    return end;
+}
+
+std::string text_of(const std::string& scene_text, const Shard& shard = {}, const ExistingWork& existing = {}) {
     const Scene scene = scene_of(scene_text);
-    return to_text(plan(scene), scene);
+    return to_text(plan(resolve(scene, existing.finished, {}), shard, existing), scene);
 }
 
 TEST(Plan, WithoutOutputsNothingIsDone) {
     const Plan p = plan_of("[]");
-    EXPECT_FALSE(p.simulation);
+    EXPECT_TRUE(p.motions.empty());
     EXPECT_TRUE(p.pictures.empty());
     EXPECT_FALSE(p.needs_gl());
-    EXPECT_FALSE(p.needs_encoder());
 }
 
-TEST(Plan, ATableNeedsNeitherPicturesNorEncoderNorOpenGl) {
+TEST(Plan, ATableNeedsNeitherPicturesNorOpenGl) {
     const Plan p = plan_of(R"([{"type": "trajectory", "channels": ["theta"], "times": [0.3, 0.1]}])");
     EXPECT_TRUE(p.pictures.empty());
     EXPECT_FALSE(p.needs_gl());
-    EXPECT_FALSE(p.needs_encoder());
-    EXPECT_TRUE(p.simulation->request.poses.empty());
-    EXPECT_TRUE(p.simulation->request.extrema.empty());
-    ASSERT_EQ(p.simulation->request.tables.size(), 1u);
-    EXPECT_THAT(p.simulation->request.tables[0].times, ElementsAre(0.3, 0.1));
-    EXPECT_THAT(p.simulation->request.tables[0].channels,
+    ASSERT_EQ(p.motions.size(), 1u);
+    EXPECT_TRUE(run_of(p).poses.empty());
+    EXPECT_TRUE(run_of(p).extrema.empty());
+    ASSERT_EQ(run_of(p).tables.size(), 1u);
+    EXPECT_THAT(run_of(p).tables[0].times, ElementsAre(0.3, 0.1));
+    EXPECT_THAT(run_of(p).tables[0].channels,
                 ElementsAre(sim::Channel{sim::ChannelKind::t, 0}, sim::Channel{sim::ChannelKind::theta, 0}));
 }
 
-TEST(Plan, SimulationEndsWhereTheLastOutputLooks) {
-    EXPECT_EQ(plan_of(R"([{"type": "still", "at": 0.3}])").simulation->request.end_time, 0.3);
-    EXPECT_EQ(plan_of(R"([{"type": "still", "at": 0.3}, {"type": "trajectory", "times": [0.7]}])")
-                  .simulation->request.end_time,
-              0.7);
-    EXPECT_EQ(plan_of(R"([{"type": "video", "to": 0.5}])").simulation->request.end_time, 0.5);
-    EXPECT_EQ(plan_of(R"([{"type": "still", "at": 0.3}, {"type": "impacts"}])").simulation->request.end_time, 1.5);
-    EXPECT_EQ(plan_of(R"([{"type": "trajectory", "times": [2.5]}])").simulation->request.end_time, 2.5);
-    EXPECT_EQ(plan_of(R"([{"type": "still", "at": 0}])").simulation->request.end_time, 0);
+TEST(Plan, MotionsEndWhereTheLastOutputLooks) {
+    const auto end = [](const char* outputs) { return end_of_motions(plan_of(outputs)); };
+    EXPECT_EQ(end(R"([{"type": "still", "at": 0.3}])"), 0.3);
+    EXPECT_EQ(end(R"([{"type": "still", "at": 0.3}, {"type": "trajectory", "times": [0.7]}])"), 0.7);
+    EXPECT_EQ(end(R"([{"type": "video", "to": 0.5}])"), 0.5);
+    EXPECT_EQ(end(R"([{"type": "still", "at": 0.3}, {"type": "impacts"}])"), 1.5);
+    EXPECT_EQ(end(R"([{"type": "trajectory", "times": [2.5]}])"), 2.5);
+    EXPECT_EQ(end(R"([{"type": "still", "at": 0}])"), 0);
+}
+
+// Impacts are those of the whole run.
+TEST(Plan, ImpactsReachAsFarAsTheLongestTable) {
+    EXPECT_EQ(run_of(plan_of(R"([{"type": "impacts"}, {"type": "trajectory", "times": [2.5]}])")).end_time, 2.5);
 }
 
 TEST(Plan, FramesAreAtMultiplesOfTheFramePeriod) {
     const Plan p = plan_of(R"([{"type": "frames", "fps": 10, "from": 0.2, "to": 0.5}])");
-    EXPECT_EQ(p.pictures[0].first_frame, 2);
-    EXPECT_THAT(shown_by(p.pictures[0]).poses[kFramePoses].times, ElementsAre(2 / 10.0, 3 / 10.0, 4 / 10.0));
+    EXPECT_EQ(p.pictures[0].times.first, 2);
+    EXPECT_THAT(shown_in(p).poses[kFramePoses].times, ElementsAre(2 / 10.0, 3 / 10.0, 4 / 10.0));
     EXPECT_EQ(plan_of(R"([{"type": "video"}])", R"("time": {"end": 10},)").pictures.front().draw.size(), 600u);
     EXPECT_EQ(plan_of(R"([{"type": "video", "fps": 29.97}])", R"("time": {"end": 10},)").pictures.front().draw.size(),
               300u);
@@ -75,25 +88,24 @@ TEST(Plan, FramesAreAtMultiplesOfTheFramePeriod) {
 
 TEST(Plan, TableRowsAreMultiplesOfThePeriodAndTheEnd) {
     const auto rows = [](const char* end) {
-        return plan_of(R"([{"type": "trajectory", "rate": 10}])", std::string("\"time\": {\"end\": ") + end + "},")
-            .simulation->request.tables[0]
+        return run_of(
+                   plan_of(R"([{"type": "trajectory", "rate": 10}])", std::string("\"time\": {\"end\": ") + end + "},"))
+            .tables[0]
             .times;
     };
     EXPECT_THAT(rows("0.3"), ElementsAre(0, 1 / 10.0, 2 / 10.0, 0.3));
     EXPECT_THAT(rows("0.25"), ElementsAre(0, 1 / 10.0, 2 / 10.0, 0.25));
     EXPECT_THAT(rows("0.05"), ElementsAre(0, 0.05));
-    EXPECT_THAT(plan_of(R"([{"type": "trajectory", "rate": 1e-9}])", R"("time": {"end": 0.5},)")
-                    .simulation->request.tables[0]
-                    .times,
-                ElementsAre(0, 0.5));
+    EXPECT_THAT(
+        run_of(plan_of(R"([{"type": "trajectory", "rate": 1e-9}])", R"("time": {"end": 0.5},)")).tables[0].times,
+        ElementsAre(0, 0.5));
 }
 
 // Of ten seconds, in which rows at equal distances of time miss the peaks of the third mode.
 TEST(Plan, ThePhasePortraitReachesThePeaksOfVibration) {
     const Plan p = plan_of(R"([{"type": "still", "at": 9.99, "layout": "phase"}])",
                            R"("time": {"end": 10}, "beam": {"modes": 3},)");
-    const sim::Table drawn =
-        sim::simulate(p.pictures[0].shown.front().problem, shown_by(p.pictures[0])).tables[kChartTable];
+    const sim::Table drawn = sim::simulate(p.motions[0].problem, shown_in(p)).tables[kChartTable];
     const auto column = [&](sim::ChannelKind kind) {
         const auto at = std::ranges::find(drawn.channels, sim::Channel{kind, 0}) - drawn.channels.begin();
         return drawn.values.at(static_cast<std::size_t>(at));
@@ -102,8 +114,7 @@ TEST(Plan, ThePhasePortraitReachesThePeaksOfVibration) {
     sim::Request all;
     all.tables.push_back({{}, {{sim::ChannelKind::theta_dot, 0}}});
     for (double at = 0.8426; at < 0.8434; at += 1e-6) all.tables.front().times.push_back(at);
-    const double peak =
-        std::ranges::max(sim::simulate(p.pictures[0].shown.front().problem, all).tables.front().values.front());
+    const double peak = std::ranges::max(sim::simulate(p.motions[0].problem, all).tables.front().values.front());
     double reached = 0;
     for (std::size_t i = 0; i < t.size(); ++i)
         if (t[i] > 0.8426 && t[i] < 0.8434) reached = std::max(reached, rate[i]);
@@ -113,38 +124,25 @@ TEST(Plan, ThePhasePortraitReachesThePeaksOfVibration) {
 TEST(Plan, AFlatViewNeedsNoOpenGl) {
     EXPECT_FALSE(plan_of(R"([{"type": "video", "view": {"style": "flat"}}])").needs_gl());
     EXPECT_TRUE(plan_of(R"([{"type": "video"}])").needs_gl());
-    EXPECT_FALSE(plan_of(R"([{"type": "still", "at": 0}])").needs_encoder());
 }
 
 TEST(Plan, WithoutACamThereIsNoTraceOfTheContact) {
-    EXPECT_EQ(shown_by(plan_of(R"([{"type": "video"}])", "\"cam\": null,").pictures[0]).tables.size(), kTraceTable);
-    EXPECT_EQ(shown_by(plan_of(R"([{"type": "video"}])").pictures[0]).tables.size(), kTraceTable + 1);
+    EXPECT_EQ(shown_in(plan_of(R"([{"type": "video"}])", "\"cam\": null,")).tables.size(), kTraceTable);
+    EXPECT_EQ(shown_in(plan_of(R"([{"type": "video"}])")).tables.size(), kTraceTable + 1);
 }
 
-TEST(Plan, OneSimulationServesEveryOutput) {
+TEST(Plan, OneMotionServesEveryOutput) {
     const Plan p = plan_of(
         R"([{"type": "video", "file": "a.mp4"}, {"type": "still", "at": 0.2}, {"type": "trajectory"}, {"type": "summary"}])");
-    EXPECT_TRUE(p.others.empty());
-    EXPECT_EQ(p.simulation->request.tables.size(), 1u);
-    EXPECT_EQ(requests_of(p).size(), 3u);  // of the table and the summary, and of each picture
+    ASSERT_EQ(p.motions.size(), 3u);  // requests of each picture, and of the table and the summary
+    for (const MotionRequest& each : p.motions) EXPECT_EQ(each.key, p.motions.front().key);
+    EXPECT_EQ(run_of(p).tables.size(), 1u);
 }
 
 TEST(Plan, TheHorizonThatAPictureShowsDoesNotChangeTheSummary) {
     const Plan p = plan_of(R"([{"type": "video", "horizon": true}, {"type": "summary"}])");
-    EXPECT_TRUE(shown_by(p.pictures[0]).horizon);
-    EXPECT_FALSE(p.simulation->request.horizon);
-    EXPECT_TRUE(p.simulation->horizon);
-}
-
-// Events decide when the frames are, not how many.
-TEST(Plan, AFilmWithADurationHasAKnownNumberOfFrames) {
-    const Scene scene =
-        scene_of(R"({"outputs": [{"type": "video", "file": "a.mp4", "fps": 20, "duration": 3, "from": "impact:1"}]})");
-    EXPECT_THAT(to_text(plan(scene), scene), HasSubstr("a.mp4: 60 frames\n"));
-    const Plan part = plan(scene, {.frames = std::pair(10L, 15L)});
-    EXPECT_THAT(to_text(part, scene), HasSubstr("a.mp4: 5 frames\n"));
-    EXPECT_THAT(text_of(R"({"outputs": [{"type": "video", "file": "a.mp4", "speed": "impacts"}]})"),
-                HasSubstr("video       a.mp4\n"));
+    EXPECT_TRUE(shown_in(p).horizon);
+    EXPECT_FALSE(run_of(p).horizon);
 }
 
 // ---- golden texts ------------------------------------------------------------------------------
@@ -195,16 +193,17 @@ sweep       s.csv
 )");
 }
 
-TEST(PlanText, AMotionThatEndsAtAnEvent) {
-    EXPECT_EQ(text_of(R"({"time": {"end": 2}, "outputs": [{"type": "video", "file": "a.mp4", "to": "impact:3"}]})"),
-              R"(motion      first-order, 2 modes: until 2 s at most
-video       a.mp4
-)");
+TEST(PlanText, AnOutputAtAnEventWaitsForIt) {
+    const Scene scene =
+        scene_of(R"({"time": {"end": 2}, "outputs": [{"type": "video", "file": "a.mp4", "to": "impact:3"}]})");
+    Plan dry;
+    dry.waiting = {0};
+    EXPECT_EQ(to_text(dry, scene), "video       a.mp4: at events, which a run until 2 s at most finds\n");
 }
 
 TEST(PlanText, IsTheSameAsJson) {
     const Scene scene = scene_of(R"({"outputs": [{"type": "trajectory"}]})");
-    EXPECT_EQ(to_json(plan(scene), scene), R"([
+    EXPECT_EQ(to_json(plan(resolve(scene, {})), scene), R"([
   {"what": "motion", "name": "first-order, 2 modes", "content": "until 1.5 s"},
   {"what": "trajectory", "name": "scene.csv", "content": "rows that follow the motion"}
 ]
@@ -217,23 +216,19 @@ constexpr const char* kTwo = R"({"outputs": [
     {"type": "frames", "file": "f-##.png", "fps": 20, "to": 0.5, "size": [320, 180], "view": {"style": "flat"}},
     {"type": "trajectory", "file": "t.csv", "times": [0.4]}]})";
 
-std::string text_with(const ExistingWork& existing) {
-    const Scene scene = scene_of(kTwo);
-    return to_text(plan(scene, {}, existing), scene);
-}
-
 TEST(PlanText, WhatIsUpToDateIsKept) {
     ExistingWork existing;
-    existing.finished = {{1, "t.csv"}};
+    existing.finished = {1};
     existing.frames[0] = {0, 1, 2, 7};
-    EXPECT_EQ(text_with(existing), R"(motion      first-order, 2 modes: until 0.5 s
+    EXPECT_EQ(text_of(kTwo, {}, existing), R"(motion      first-order, 2 modes: until 0.5 s
 frames      f-##.png: 6 frames
+kept        t.csv
 kept        4 frames of f-##.png
-kept        t.csv
 )");
-    existing.finished = {{0, "f-##.png"}, {1, "t.csv"}};
-    EXPECT_EQ(text_with(existing), R"(kept        f-##.png
-kept        t.csv
+    existing.finished = {1};
+    existing.frames[0] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
+    EXPECT_EQ(text_of(kTwo, {}, existing), R"(kept        t.csv
+kept        10 frames of f-##.png
 )");
 }
 
@@ -254,8 +249,8 @@ TEST(Plan, PicturesThatEndBeforeTheRunReportOnlyTheirPart) {
     const Plan p = plan_of(
         R"([{"type": "video", "file": "a.mp4", "to": 0.5}, {"type": "video", "file": "b.mp4"}, {"type": "still", "at": 0.5}])");
     std::vector<double> ends;
-    for (const sim::Request& request : requests_of(p)) ends.push_back(request.end_time);
-    EXPECT_THAT(ends, ElementsAre(1.5, 0.5, 1.5, 0.5));  // of the run, then of each picture
+    for (const MotionRequest& each : p.motions) ends.push_back(each.request.end_time);
+    EXPECT_THAT(ends, ElementsAre(0.5, 1.5, 0.5));
 }
 
 }  // namespace

@@ -1,0 +1,278 @@
+#include "scenes/plan/resolve.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "render/base/error.hpp"
+#include "scenes/scene/time_map.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+bool is_apex(const std::optional<Instant>& at) { return at && at->kind == Instant::Kind::apex; }
+
+// ---- searches ----------------------------------------------------------------------------------
+
+// A run of one motion that finds events.
+struct Search {
+    double until = 0;                                 // at most [s]
+    bool whole = false;                               // it does not end at the events below
+    bool apexes = false;                              // they are among the events
+    std::vector<std::optional<Instant>> bounds = {};  // the events at which outputs begin and end
+
+    void add(const Search& other) {
+        until = std::max(until, other.until);
+        whole = whole || other.whole;
+        apexes = apexes || other.apexes;
+        bounds.insert(bounds.end(), other.bounds.begin(), other.bounds.end());
+    }
+};
+
+// The events after which the run may end. The apex of a rebound is certain when the next collision begins. nullopt: the
+// whole motion is needed.
+std::optional<sim::EventCounts> enough_for(const Search& search) {
+    sim::EventCounts enough;
+    const auto raise = [](std::size_t& count, int number) {
+        count = std::max(count, static_cast<std::size_t>(number));
+    };
+    if (search.whole) return std::nullopt;
+    for (const std::optional<Instant>& each : search.bounds) {
+        switch (each.value_or(Instant{}).kind) {
+            case Instant::Kind::time:
+                break;
+            case Instant::Kind::last:
+                return std::nullopt;
+            case Instant::Kind::impact:
+                raise(enough.touches, each->number);
+                break;
+            case Instant::Kind::release:
+                raise(enough.releases, each->number);
+                break;
+            case Instant::Kind::collision:
+                raise(enough.collisions, each->number);
+                break;
+            case Instant::Kind::liftoff:
+            case Instant::Kind::apex:
+                raise(enough.collisions, each->number + 1);
+                break;
+        }
+    }
+    return enough.touches + enough.releases + enough.collisions > 0 ? std::optional(enough) : std::nullopt;
+}
+
+sim::Result run(const Search& search, const sim::Problem& problem, const FindEvents& find) {
+    sim::Request request;
+    request.end_time = search.until;
+    request.apexes = search.apexes;
+    request.enough = enough_for(search);
+    sim::Result found = find(problem, request);
+    const auto lacks = [&](const std::optional<Instant>& at) { return at && !find_instant(*at, found); };
+    if (!(found.end_time < search.until) || std::ranges::none_of(search.bounds, lacks)) return found;
+    request.enough.reset();  // two successive collisions had no apex between them
+    return find(problem, request);
+}
+
+// ---- figures -----------------------------------------------------------------------------------
+
+Search search_of(const FigureOutput& how, const Scene& scene) {
+    const SeriesKeys& keys = how.series;
+    Search search{.until = keys.to.value_or(scene.end_time), .whole = !keys.to_event && !keys.at};
+    search.bounds = {keys.from_event, keys.to_event, keys.at};
+    search.apexes = std::ranges::any_of(search.bounds, is_apex);
+    return search;
+}
+
+// `end_time`: of the scene [s].
+FigureOutput with_times_of(FigureOutput how, const sim::Result& motion, double end_time) {
+    const auto text = [](const std::optional<Instant>& event, double t) {
+        return event ? fmt::format("{} at {:g} s", name_of(*event), t) : fmt::format("{:g} s", t);
+    };
+    const auto from_event = how.series.from_event, to_event = how.series.to_event;
+    SeriesKeys series = with_times(std::move(how.series), motion);
+    if (const auto at = std::exchange(series.at, {}))
+        series.from = at->kind == Instant::Kind::last ? end_time : instant_of(*at, motion), series.to = series.from;
+    const double end = series.to.value_or(end_time);
+    if (!(series.from < end) && !(how.figure == "strobe" && series.from == end))
+        throw render::PictureError(fmt::format("figure {}: \"from\" = {} is not before \"to\" = {}", how.figure,
+                                               text(from_event, series.from), text(to_event, end)));
+    how.series = std::move(series);
+    return how;
+}
+
+// ---- pictures ----------------------------------------------------------------------------------
+
+// End of the motion that can be shown [s].
+double end_of(const PictureOutput& p, const Scene& scene) {
+    if (p.kind != PictureOutput::Kind::still) return p.span.to.value_or(scene.end_time);
+    return p.at.kind == Instant::Kind::time ? p.at.t : scene.end_time;
+}
+
+// A strip of one collision at a time needs more rows than one of the whole time, a page more instants.
+bool shows_collisions(const PictureOutput& p, const Scene& scene) {
+    if (!p.compare.empty() || !scene.problem.cam) return false;
+    return p.kind == PictureOutput::Kind::page ||
+           std::ranges::any_of(panels_of(p, scene, end_of(p, scene)), &render::PanelSpec::by_collision);
+}
+
+bool ends_at_event(const PictureOutput& p) { return p.kind != PictureOutput::Kind::still && p.span.to_event; }
+
+Search search_of(const PictureOutput& p, const Scene& scene) {
+    std::vector<Instant> named = p.span.instants();
+    named.push_back(p.at);
+    for (const Keyframe& key : p.view.keyframes) named.push_back(key.at);
+    return {.until = end_of(p, scene),
+            .whole = !ends_at_event(p),
+            .apexes = std::ranges::any_of(named, is_apex),
+            .bounds = {p.span.from_event, p.span.to_event}};
+}
+
+// Poses per second of a page between two times [s]: `fps`, or more for a short motion.
+FrameRate rate_of_page(FrameRate fps, double from, double to) {
+    constexpr double kFewestPoses = 1000, kHighestRate = 1e9;  // [Hz]
+    const double rate = kFewestPoses / std::max(to - from, 1e-9);
+    return rate > fps.value() ? FrameRate{static_cast<int>(std::min(std::ceil(rate), kHighestRate)), 1} : fps;
+}
+
+// `motion` contains the events that the picture names, `slowed` the impacts of all motions, for slow motion.
+ResolvedOutput resolved_picture(std::size_t index, PictureOutput p, const Scene& scene, const sim::Result& motion,
+                                const std::vector<sim::Impact>& slowed) {
+    const double end = ends_at_event(p) ? instant_of(*p.span.to_event, motion) : end_of(p, scene);
+    const bool collisions = shows_collisions(p, scene);
+    FilmTimes times;
+    switch (p.kind) {
+        case PictureOutput::Kind::still:
+            times = still_times(p.at, motion, end, collisions);
+            break;
+        case PictureOutput::Kind::page:
+            p.view.style = render::Style::flat;
+            p.span.fps = rate_of_page(p.span.fps, with_times(p.span, motion).from, end);
+            times = page_times(p.span, end, motion);
+            break;
+        default:
+            times = film_times(p.span, end, motion, slowed, collisions);
+    }
+    if (!times.frames.empty()) add_moves(times, p.view, p.span.fps.value(), motion, p.span.to || ends_at_event(p));
+    return {index, std::move(p), end, std::move(times)};
+}
+
+// Slow motion is around the impacts of all motions; "impact:N" counts those of the first motion.
+ResolvedOutput resolved_comparison(std::size_t index, const PictureOutput& p, const Scene& scene,
+                                   const FindEvents& find) {
+    Search search = search_of(p, scene);
+    const sim::Result first = run(search, p.compare.front().problem, find);
+    std::vector<sim::Impact> all = first.impacts;
+    const double end = ends_at_event(p) ? instant_of(*p.span.to_event, first) : search.until;
+    for (std::size_t i = 1; i < p.compare.size(); ++i) {
+        const sim::Result other = run({.until = end, .whole = true}, p.compare[i].problem, find);
+        all.insert(all.end(), other.impacts.begin(), other.impacts.end());
+    }
+    std::ranges::stable_sort(all, {}, &sim::Impact::t_start);
+    return resolved_picture(index, p, scene, first, all);
+}
+
+// ---- all outputs -------------------------------------------------------------------------------
+
+// The events of the scene's own motion, found when the first output needs them.
+class OwnEvents {
+  public:
+    OwnEvents(const Scene& scene, const std::set<std::size_t>& without, const FindEvents& find)
+        : scene_(scene), find_(find) {
+        for (std::size_t i = 0; i < scene.outputs.size(); ++i) {
+            const Output& output = scene.outputs[i];
+            if (without.contains(i) || !needs_events(output, scene)) continue;
+            if (const auto* p = std::get_if<PictureOutput>(&output); p && p->compare.empty())
+                search_.add(search_of(*p, scene));
+            if (const auto* f = std::get_if<FigureOutput>(&output); f && f->series.compare.empty())
+                search_.add(search_of(*f, scene));
+        }
+    }
+    const sim::Result& get() {
+        if (!found_) found_ = run(search_, scene_.problem, find_);
+        return *found_;
+    }
+
+  private:
+    const Scene& scene_;
+    const FindEvents& find_;
+    Search search_;
+    std::optional<sim::Result> found_;
+};
+
+ResolvedOutput resolved_output(std::size_t index, const Scene& scene, OwnEvents& own, const FindEvents& find) {
+    static const sim::Result kNoEvents;
+    const Output& output = scene.outputs[index];
+    const bool events = needs_events(output, scene);
+    if (const auto* figure = std::get_if<FigureOutput>(&output))
+        return {index, !events                          ? with_times_of(*figure, kNoEvents, scene.end_time)
+                       : figure->series.compare.empty() ? with_times_of(*figure, own.get(), scene.end_time)
+                                                        : resolved(*figure, scene, find)};
+    const auto* picture = std::get_if<PictureOutput>(&output);
+    if (!picture) return {index, output};
+    PictureOutput p = *picture;
+    if (p.kind == PictureOutput::Kind::still && p.at.kind == Instant::Kind::last)
+        p.at = {.kind = Instant::Kind::time, .t = scene.end_time};
+    if (events && !p.compare.empty()) return resolved_comparison(index, p, scene, find);
+    const sim::Result& motion = events ? own.get() : kNoEvents;
+    return resolved_picture(index, std::move(p), scene, motion, motion.impacts);
+}
+
+}  // namespace
+
+bool needs_events(const Output& output, const Scene& scene) {
+    if (const auto* figure = std::get_if<FigureOutput>(&output)) return figure->series.needs_events();
+    const auto* p = std::get_if<PictureOutput>(&output);
+    if (!p) return false;
+    return shows_collisions(*p, scene) || std::ranges::any_of(p->view.keyframes, &Instant::is_event, &Keyframe::at) ||
+           (p->kind == PictureOutput::Kind::still ? p->at.is_event() : p->span.needs_events());
+}
+
+double events_until(const Output& output, const Scene& scene) {
+    if (const auto* figure = std::get_if<FigureOutput>(&output)) return search_of(*figure, scene).until;
+    return end_of(std::get<PictureOutput>(output), scene);
+}
+
+std::vector<render::PanelSpec> panels_of(const PictureOutput& p, const Scene& scene, double end_time) {
+    if (p.layout) return render::panels_of(*p.layout);
+    const sim::Problem* shown = p.compare.empty() ? &scene.problem : &p.compare.front().problem;
+    for (const Compared& each : p.compare)
+        if (!shown->cam) shown = &each.problem;
+    return render::standard_panels(*shown, is_slow_motion(p, end_time));
+}
+
+bool is_slow_motion(const PictureOutput& p, double end_time) {
+    return p.compare.empty() &&
+           (p.span.speed.around || p.span.speed.factor <= 0.1 ||
+            (p.span.duration && !ends_at_event(p) && end_time - p.span.from <= 0.1 * *p.span.duration));
+}
+
+FigureOutput resolved(const FigureOutput& how, const Scene& scene, const FindEvents& find) {
+    if (!how.series.needs_events()) return with_times_of(how, {}, scene.end_time);
+    const std::vector<Compared>& compare = how.series.compare;
+    return with_times_of(how,
+                         run(search_of(how, scene), compare.empty() ? scene.problem : compare.front().problem, find),
+                         scene.end_time);
+}
+
+ResolvedScene resolve(const Scene& scene, const std::set<std::size_t>& without, const FindEvents& find,
+                      const RejectOutput& reject) {
+    ResolvedScene resolved{scene, {}};
+    OwnEvents own(scene, without, find);
+    for (std::size_t i = 0; i < scene.outputs.size(); ++i) {
+        if (without.contains(i)) continue;
+        try {
+            resolved.outputs.push_back(resolved_output(i, scene, own, find));
+        } catch (const render::PictureError& error) {
+            if (!reject) throw;
+            reject(i, error.what());
+        }
+    }
+    return resolved;
+}
+
+ResolvedScene resolve(const Scene& scene, const FindEvents& find) { return resolve(scene, {}, find); }
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,51 @@
+// Replaces the events in the keys of outputs by times: the step between reading a scene and planning it. Only outputs
+// that name events, or slow down around impacts, need a run of the motion here, which ends as soon as they are found.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "scenes/scene/film_times.hpp"
+#include "scenes/scene/scene.hpp"
+
+namespace beamcam::scenes {
+
+// An output with times in place of events.
+struct ResolvedOutput {
+    std::size_t index = 0;  // into the scene's outputs
+    Output output;          // of pictures: as in the scene, except for the rate of a page
+    double end_time = 0;    // of pictures: the last time that they need [s]
+    FilmTimes times = {};   // of pictures
+};
+struct ResolvedScene {
+    const Scene& scene;
+    std::vector<ResolvedOutput> outputs;
+};
+
+// Integrates the problem until the request is answered.
+using FindEvents = std::function<sim::Result(const sim::Problem& problem, const sim::Request& request)>;
+// Is called with an output whose events do not occur, and the reason; the output is then left out. Without it
+// render::PictureError is thrown.
+using RejectOutput = std::function<void(std::size_t output, const std::string& why)>;
+
+// `without`: indices of outputs to leave out. The scene must outlive the result.
+ResolvedScene resolve(const Scene& scene, const std::set<std::size_t>& without, const FindEvents& find,
+                      const RejectOutput& reject = {});
+ResolvedScene resolve(const Scene& scene, const FindEvents& find);  // all outputs
+
+// True if the times of the output depend on events.
+bool needs_events(const Output& output, const Scene& scene);
+// The end of a run that finds all events that the output may depend on [s].
+double events_until(const Output& output, const Scene& scene);
+
+// The panels of charts in a picture that ends at `end_time` [s].
+std::vector<render::PanelSpec> panels_of(const PictureOutput& p, const Scene& scene, double end_time);
+// True for a film of one motion that shows its collisions in slow motion.
+bool is_slow_motion(const PictureOutput& p, double end_time);
+// The figure with times in place of events; `find` searches the first compared motion, else the scene's.
+FigureOutput resolved(const FigureOutput& how, const Scene& scene, const FindEvents& find);
+
+}  // namespace beamcam::scenes
