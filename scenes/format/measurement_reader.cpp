@@ -13,6 +13,7 @@
 #include "scenes/format/checks.hpp"
 #include "scenes/format/suggest.hpp"
 #include "scenes/format/wrapped_angles.hpp"
+#include "sim/base/counted.hpp"
 #include "sim/beam/drive.hpp"
 
 namespace beamcam::scenes {
@@ -221,7 +222,7 @@ class MeasurementReader {
             ++kept;
         }
         if (const std::size_t left_out = m_.times.size() - kept; left_out > 0)
-            m_.notes.push_back(fmt::format("{}: {} rows without a time are left out", m_.file, left_out));
+            m_.notes.push_back(fmt::format("{}: {} without a time left out", m_.file, counted(left_out, "row")));
         m_.times.resize(kept);
         for (std::vector<double>& values : m_.values) values.resize(kept);
     }

@@ -140,10 +140,11 @@ TEST(SweepParts, WithImpossiblePointsAreRejected) {
 TEST(SweepParts, WithImpossiblePointsAreComputedAgain) {
     const Folder folder;
     folder.write("s.json", kPartedScene);
-    ASSERT_EQ(shell(folder, "$BEAMCAM sweep s.json -q --seed carry-up -o whole.csv").code, 0);
-    Scene scene = *testing::read(kPartedScene).scene;
-    scene.sweep->seeds.kinds = {SeedKind::carry_up};
-    const SweepGrid grid(scene);
+    ASSERT_EQ(shell(folder,
+                    "$BEAMCAM sweep s.json -q --seed carry-up -o whole.csv && "
+                    "$BEAMCAM sweep s.json -q --seed carry-up -o own.csv --shard 1/2")
+                  .code,
+              0);
     output::StoredPoint point;
     for (const std::vector<double>& state :
          {std::vector<double>{1}, {1, 0, 0, 99, 0, 0, 0}, {1, 0, 0, 0, 0, NAN, 0}, {1, 0, 0, -1e300, 0, 0.5, 0}}) {
@@ -151,8 +152,9 @@ TEST(SweepParts, WithImpossiblePointsAreComputedAgain) {
         EXPECT_FALSE(end_of(point));
     }
     point.kind = 100;
-    output::write_file(folder / "r.csv.part", output::text_of(head_of(grid, Shard())) + output::text_of(point));
-    const Finished done = shell(folder, "$BEAMCAM sweep s.json -q --force --seed carry-up -o r.csv");
+    const output::PointFile own(folder / "own.1of2.points");  // with the identity of the whole sweep
+    output::write_file(folder / "r.csv.part", output::text_of(own.head()) + output::text_of(point));
+    const Finished done = shell(folder, "$BEAMCAM sweep s.json -q --seed carry-up -o r.csv");
     EXPECT_EQ(done.code, 0) << done.err;
     EXPECT_EQ(slurp(folder / "r.csv"), slurp(folder / "whole.csv"));
     ASSERT_EQ(shell(folder, "rm r.csv; touch victim; ln -s victim r.csv.part").code, 0);
