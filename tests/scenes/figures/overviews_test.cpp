@@ -121,7 +121,7 @@ TEST(Stretch, BeginsAndEndsAtEventsOfTheFirstMotion) {
     const auto& released = made.motions.at(made.figures[1].motions.at(0)).request;
     EXPECT_NEAR(released.end_time, *own.impacts[0].t_end, 1e-12);
     EXPECT_EQ(made.motions.at(made.figures[2].motions.at(0)).request.end_time, 1);
-    const sim::Result higher = impacts_of(made.figures[3].studies.at(0).problem);
+    const sim::Result higher = impacts_of(made.motions.at(made.figures[3].motions.at(0)).problem);
     ASSERT_GT(std::abs(higher.collisions[0].t_start - own.collisions[0].t_start), 1e-4);
     EXPECT_NEAR(times(3).front(), higher.collisions[0].t_start, 1e-12);
 }
