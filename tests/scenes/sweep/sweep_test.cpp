@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "output/data/table_reader.hpp"
 #include "scenes/format/checks.hpp"
@@ -129,6 +131,20 @@ TEST(SweepCommand, LeavesNothingBehindWhenItsTableOnStandardOutputIsKilled) {
           "mkdir tmp; TMPDIR=$PWD/tmp $BEAMCAM sweep s.json -q --transient 200000 > out.csv & pid=$!; sleep 0.3; kill "
           "-9 $pid; wait $pid");
     EXPECT_TRUE(std::filesystem::is_empty(folder / "tmp"));
+}
+
+// The line of Python in SWEEPS.md.
+TEST(SweepCommand, ItsNetcdfFileIsDrawnByXarray) {
+    if (std::system("/usr/bin/python3 -c 'import xarray, matplotlib' 2>/dev/null") != 0) GTEST_SKIP() << "no xarray";
+    Folder folder;
+    folder.write("s.json", kSweptScene);
+    std::istringstream lines(slurp(std::filesystem::path(BEAMCAM_TEST_DIR) / "../scenes/SWEEPS.md"));
+    std::string line;
+    while (std::getline(lines, line) && !line.starts_with("    import xarray")) continue;
+    folder.write("draw.py", line.substr(4) + "\n");
+    const Finished drawn =
+        shell(folder, "$BEAMCAM sweep s.json -q -o r.nc && HOME=$PWD MPLBACKEND=Agg /usr/bin/python3 draw.py");
+    EXPECT_EQ(drawn.code, 0) << drawn.err;
 }
 
 TEST(SweepCommand, WritesTheSameNumbersForNumpy) {
