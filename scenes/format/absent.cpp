@@ -8,10 +8,10 @@
 namespace beamcam::scenes {
 namespace {
 
-enum class Kind { not_modelled, key, value, unit, command, option, ending };
+enum class WordKind { not_modelled, key, value, unit, command, option, ending };
 
 struct Absent {
-    Kind kind;
+    WordKind kind;
     const char* words;     // separated by blanks
     const char* sentence;  // follows "unknown …; "
 };
@@ -19,86 +19,86 @@ struct Absent {
 // Words of `not_modelled` are one or more parts of a key: "spring" is found in "return_spring" and in "springRate". A
 // word may begin with the object that has the key: "hub.damping". A value is "key=word".
 constexpr Absent kAbsent[] = {
-    {Kind::not_modelled, "profile lift lift_table polynomial ellipse base_circle lobe",
+    {WordKind::not_modelled, "profile lift lift_table polynomial ellipse base_circle lobe",
      "the cam is an eccentric disc: profiles and lift tables are not modelled"},
-    {Kind::not_modelled, "cam.acceleration cam.drive cam.torque cam.inertia cam.mass",
+    {WordKind::not_modelled, "cam.acceleration cam.drive cam.torque cam.inertia cam.mass",
      "the cam turns at constant speed: its own dynamics are not modelled"},
-    {Kind::not_modelled, "cams beams", "several cams or beams are not modelled; \"compare\" shows several motions"},
-    {Kind::not_modelled, "spring springs preload hub.stiffness joint_stiffness",
+    {WordKind::not_modelled, "cams beams", "several cams or beams are not modelled; \"compare\" shows several motions"},
+    {WordKind::not_modelled, "spring springs preload hub.stiffness joint_stiffness",
      "springs at the hub or at the beam are not modelled; \"hub\": {\"drive\": {\"type\": \"torque\", …}} presses the "
      "beam"},
-    {Kind::not_modelled, "damper dashpot bearing hub.damping hub.friction joint_damping",
+    {WordKind::not_modelled, "damper dashpot bearing hub.damping hub.friction joint_damping",
      "damping and friction at the hub are not modelled; beam.damping_ratio and beam.kelvin_voigt damp vibrations"},
-    {Kind::not_modelled, "tip_mass point_mass mass masses payload",
+    {WordKind::not_modelled, "tip_mass point_mass mass masses payload",
      "a mass at the tip or at a point is not modelled; the beam's own mass follows from density and area"},
-    {Kind::not_modelled, "roller follower nose tip_radius",
+    {WordKind::not_modelled, "roller follower nose tip_radius",
      "a roller or a nose is not modelled: the beam itself touches the cam, contact.offset from its axis"},
-    {Kind::not_modelled, "taper tapered stepped sections tip_area tip_depth root_depth",
+    {WordKind::not_modelled, "taper tapered stepped sections tip_area tip_depth root_depth",
      "the beam is uniform: tapered and stepped beams are not modelled"},
-    {Kind::not_modelled, "shear shear_modulus timoshenko rotary_inertia axial extension",
+    {WordKind::not_modelled, "shear shear_modulus timoshenko rotary_inertia axial extension",
      "shear, rotary inertia and extension of the beam are not modelled"},
-    {Kind::not_modelled, "torsion out_of_plane warping", "the motion is plane: torsion is not modelled"},
-    {Kind::not_modelled, "yield yield_stress plasticity plastic hardening",
+    {WordKind::not_modelled, "torsion out_of_plane warping", "the motion is plane: torsion is not modelled"},
+    {WordKind::not_modelled, "yield yield_stress plasticity plastic hardening",
      "all bodies are elastic: plasticity is not modelled"},
-    {Kind::not_modelled, "drag air_drag air fluid", "the resistance of the air is not modelled"},
-    {Kind::not_modelled, "lubrication lubricant oil wear temperature",
+    {WordKind::not_modelled, "drag air_drag air fluid", "the resistance of the air is not modelled"},
+    {WordKind::not_modelled, "lubrication lubricant oil wear temperature",
      "lubrication, wear and temperature are not modelled"},
 
-    {Kind::key, "beam.width beam.thickness beam.height beam.diameter beam.section beam.cross_section",
+    {WordKind::key, "beam.width beam.thickness beam.height beam.diameter beam.section beam.cross_section",
      "give the cross-section as \"area\" and \"second_moment\": b h and b h^3/12 for a rectangle of width b, π d^2/4 "
      "and π d^4/64 for a rod"},
-    {Kind::key, "beam.material cam.material", "give the material as \"density\" and \"youngs_modulus\""},
-    {Kind::key, "subtitles chapters", "it was withdrawn; \"events\" show texts in the film, ffmpeg adds subtitles"},
-    {Kind::key, "collision", "it was withdrawn; write \"from\": \"collision:3\", \"to\": \"liftoff:3\""},
-    {Kind::key, "layer", "it was withdrawn; \"show\" and \"layout\" choose what a film shows"},
-    {Kind::key, "trace tip_path swing shutter exposures view.strobe palette logo",
+    {WordKind::key, "beam.material cam.material", "give the material as \"density\" and \"youngs_modulus\""},
+    {WordKind::key, "subtitles chapters", "it was withdrawn; \"events\" show texts in the film, ffmpeg adds subtitles"},
+    {WordKind::key, "collision", "it was withdrawn; write \"from\": \"collision:3\", \"to\": \"liftoff:3\""},
+    {WordKind::key, "layer", "it was withdrawn; \"show\" and \"layout\" choose what a film shows"},
+    {WordKind::key, "trace tip_path swing shutter exposures view.strobe palette logo",
      "it was withdrawn; \"theme\" and \"background\" remain, and the figure \"strobe\" draws several instants"},
 
-    {Kind::key, "accepted reproducible_until renderers",
+    {WordKind::key, "accepted reproducible_until renderers",
      "it was withdrawn: references are plain files, which beamcam test BASELINES --update writes; remove the key"},
-    {Kind::key, "expected", "it was withdrawn; beamcam diff compares pictures of other programs"},
+    {WordKind::key, "expected", "it was withdrawn; beamcam diff compares pictures of other programs"},
 
-    {Kind::value, "type=model", "3-D models were withdrawn; a \"page\" plays the motion in a browser"},
-    {Kind::value, "type=sweep-film", "it was withdrawn; write a \"sweep\", a \"figure\" and \"video\" outputs"},
-    {Kind::value, "codec=hevc codec=av1 codec=apng",
+    {WordKind::value, "type=model", "3-D models were withdrawn; a \"page\" plays the motion in a browser"},
+    {WordKind::value, "type=sweep-film", "it was withdrawn; write a \"sweep\", a \"figure\" and \"video\" outputs"},
+    {WordKind::value, "codec=hevc codec=av1 codec=apng",
      "it was withdrawn; write h264, or vp9 or prores for a transparent film"},
-    {Kind::value, "method=exponential method=arkode-erk", "it was withdrawn; write auto or rk8"},
-    {Kind::value, "type=gif", "write a \"video\" whose \"file\" ends in .gif"},
-    {Kind::value, "type=apng", "write a \"video\" whose \"file\" ends in .webp or .gif"},
+    {WordKind::value, "method=exponential method=arkode-erk", "it was withdrawn; write auto or rk8"},
+    {WordKind::value, "type=gif", "write a \"video\" whose \"file\" ends in .gif"},
+    {WordKind::value, "type=apng", "write a \"video\" whose \"file\" ends in .webp or .gif"},
 
-    {Kind::unit, "inch inches", "write in"},
-    {Kind::unit, "metre metres meter meters", "write m"},
-    {Kind::unit, "second seconds sec", "write s"},
-    {Kind::unit, "degree degrees", "write deg"},
-    {Kind::unit, "radian radians", "write rad"},
-    {Kind::unit, "hertz", "write Hz"},
-    {Kind::unit, "newton newtons", "write N"},
+    {WordKind::unit, "inch inches", "write in"},
+    {WordKind::unit, "metre metres meter meters", "write m"},
+    {WordKind::unit, "second seconds sec", "write s"},
+    {WordKind::unit, "degree degrees", "write deg"},
+    {WordKind::unit, "radian radians", "write rad"},
+    {WordKind::unit, "hertz", "write Hz"},
+    {WordKind::unit, "newton newtons", "write N"},
 
-    {Kind::command, "accept", "it was withdrawn; write beamcam test BASELINES --update NAME"},
-    {Kind::command, "cache", "it was withdrawn: motions are not stored between runs"},
-    {Kind::command, "concat", "it was withdrawn; write ffmpeg -f concat -i LIST.txt -c copy FILM.mp4"},
-    {Kind::command, "sheet", "it was withdrawn; write ffmpeg -i FILM.mp4 -vf fps=1,tile=4x3 -frames:v 1 SHEET.png"},
-    {Kind::command, "paper", "it was withdrawn; write beamcam run scenes/paper/*.json -o paper"},
-    {Kind::command, "stress", "it was withdrawn; tests/campaign of the source has the campaign"},
-    {Kind::command, "hash", "it was withdrawn; write sha256sum FILE, or ffmpeg -i FILM -f framehash -"},
-    {Kind::command, "help", "write beamcam --help"},
-    {Kind::command, "version", "write beamcam --version"},
+    {WordKind::command, "accept", "it was withdrawn; write beamcam test BASELINES --update NAME"},
+    {WordKind::command, "cache", "it was withdrawn: motions are not stored between runs"},
+    {WordKind::command, "concat", "it was withdrawn; write ffmpeg -f concat -i LIST.txt -c copy FILM.mp4"},
+    {WordKind::command, "sheet", "it was withdrawn; write ffmpeg -i FILM.mp4 -vf fps=1,tile=4x3 -frames:v 1 SHEET.png"},
+    {WordKind::command, "paper", "it was withdrawn; write beamcam run scenes/paper/*.json -o paper"},
+    {WordKind::command, "stress", "it was withdrawn; tests/campaign of the source has the campaign"},
+    {WordKind::command, "hash", "it was withdrawn; write sha256sum FILE, or ffmpeg -i FILM -f framehash -"},
+    {WordKind::command, "help", "write beamcam --help"},
+    {WordKind::command, "version", "write beamcam --version"},
 
-    {Kind::option, "--no-cache", "it was withdrawn: motions are not stored between runs"},
-    {Kind::option, "--frames", "it was withdrawn; --from and --to choose a part of a film"},
-    {Kind::option, "--shard", "films are made in one piece; beamcam sweep --shard divides a sweep"},
-    {Kind::option, "--collision", "it was withdrawn; write --from collision:3 --to liftoff:3"},
-    {Kind::option, "--emit --parts",
+    {WordKind::option, "--no-cache", "it was withdrawn: motions are not stored between runs"},
+    {WordKind::option, "--frames", "it was withdrawn; --from and --to choose a part of a film"},
+    {WordKind::option, "--shard", "films are made in one piece; beamcam sweep --shard divides a sweep"},
+    {WordKind::option, "--collision", "it was withdrawn; write --from collision:3 --to liftoff:3"},
+    {WordKind::option, "--emit --parts",
      "it was withdrawn; scenes/SWEEPS.md has recipes for GNU parallel, Snakemake and Slurm"},
-    {Kind::option, "--film", "it was withdrawn; --diagram draws the sweep, beamcam render one of its motions"},
-    {Kind::option, "--add-digest --on-new-renderer", "it was withdrawn; --update writes the references"},
-    {Kind::option, "--annotate", "it was withdrawn; --report writes a page, --junit a file for CI services"},
-    {Kind::option, "--text", "it was withdrawn: texts are drawn as outlines"},
+    {WordKind::option, "--film", "it was withdrawn; --diagram draws the sweep, beamcam render one of its motions"},
+    {WordKind::option, "--add-digest --on-new-renderer", "it was withdrawn; --update writes the references"},
+    {WordKind::option, "--annotate", "it was withdrawn; --report writes a page, --junit a file for CI services"},
+    {WordKind::option, "--text", "it was withdrawn: texts are drawn as outlines"},
 
-    {Kind::ending, ".apng .eps .glb .tif .tiff .vtt .srt", "this format was withdrawn"},
+    {WordKind::ending, ".apng .eps .glb .tif .tiff .vtt .srt", "this format was withdrawn"},
 };
 
-std::string sentence(Kind kind, auto&& matches) {
+std::string sentence(WordKind kind, auto&& matches) {
     for (const Absent& row : kAbsent)
         if (row.kind == kind && std::ranges::any_of(split(row.words, ' '), matches))
             return std::string("; ") + row.sentence;
@@ -124,38 +124,38 @@ std::string absent_key(std::string_view path) {
     constexpr std::size_t kLongest = 200;  // a longer path is no word that anybody expects
     if (path.size() > kLongest) return {};
     const std::string key = in_snake_case(path.substr(path.rfind('.') + 1)), whole = "." + in_snake_case(path);
-    std::string found = sentence(Kind::key, [&](const std::string& word) { return whole.ends_with("." + word); });
+    std::string found = sentence(WordKind::key, [&](const std::string& word) { return whole.ends_with("." + word); });
     if (!found.empty()) return found;
-    return sentence(Kind::not_modelled, [&](const std::string& word) {
+    return sentence(WordKind::not_modelled, [&](const std::string& word) {
         return contains(word, ".") ? whole.ends_with("." + word) : contains("_" + key + "_", "_" + word + "_");
     });
 }
 
 std::string absent_value(std::string_view path, std::string_view word) {
     const std::string value = std::string(path.substr(path.rfind('.') + 1)) + "=" + std::string(word);
-    return sentence(Kind::value, [&](const std::string& each) { return each == value; });
+    return sentence(WordKind::value, [&](const std::string& each) { return each == value; });
 }
 
 std::string absent_unit(std::string_view symbol) {
-    return sentence(Kind::unit, [&](const std::string& each) { return each == symbol; });
+    return sentence(WordKind::unit, [&](const std::string& each) { return each == symbol; });
 }
 
 std::string absent_command(std::string_view name) {
-    return sentence(Kind::command, [&](const std::string& each) { return each == name; });
+    return sentence(WordKind::command, [&](const std::string& each) { return each == name; });
 }
 
 std::string absent_option(std::string_view name) {
-    return sentence(Kind::option, [&](const std::string& each) { return each == name.substr(0, name.find('=')); });
+    return sentence(WordKind::option, [&](const std::string& each) { return each == name.substr(0, name.find('=')); });
 }
 
 std::string absent_ending(std::string_view file) {
-    return sentence(Kind::ending, [&](const std::string& each) { return file.ends_with(each); });
+    return sentence(WordKind::ending, [&](const std::string& each) { return file.ends_with(each); });
 }
 
 std::vector<NotModelled> not_modelled() {
     std::vector<NotModelled> all;
     for (const Absent& row : kAbsent)
-        if (row.kind == Kind::not_modelled) all.push_back({split(row.words, ' '), row.sentence});
+        if (row.kind == WordKind::not_modelled) all.push_back({split(row.words, ' '), row.sentence});
     return all;
 }
 
