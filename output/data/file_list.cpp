@@ -55,10 +55,11 @@ bool is_file(const fs::path& file) {
     return fs::is_regular_file(file, unreadable);
 }
 
-// No link, whose target may be anywhere.
+// A link, whose target may be anywhere, is no list.
+bool is_list(const struct stat& status) { return S_ISREG(status.st_mode) && status.st_nlink == 1; }
 bool is_list(const fs::path& list) {
-    std::error_code unreadable;
-    return fs::is_regular_file(fs::symlink_status(list, unreadable));
+    struct stat status;
+    return lstat(list.c_str(), &status) == 0 && is_list(status);
 }
 
 // The text of a key; nothing if the node has no such text.
@@ -90,8 +91,7 @@ Descriptor locked_list(const fs::path& list) {
         Descriptor opened(list, O_RDWR | O_APPEND | O_CREAT | O_NOFOLLOW | O_NONBLOCK);
         struct stat own = {}, present = {};
         if (!opened || fstat(opened.number(), &own) != 0) throw write_error(list, errno);
-        if (!S_ISREG(own.st_mode) || own.st_nlink > 1)
-            throw IoError(fmt::format("cannot write {}: it is no plain file; remove it", list.string()));
+        if (!is_list(own)) throw IoError(fmt::format("cannot write {}: it is no plain file; remove it", list.string()));
         opened.lock();  // some file systems have no locks; then two processes may lose a line, but never a file
         if (lstat(list.c_str(), &present) == 0 && present.st_ino == own.st_ino && present.st_dev == own.st_dev)
             return opened;

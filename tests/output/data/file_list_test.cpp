@@ -40,7 +40,8 @@ TEST(FileList, AForeignFileIsRefusedWithTheRemedy) {
     Scratch scratch;
     write_file(scratch / "a.csv", "precious");
     const std::string message = refusal(scratch / "a.csv");
-    for (const std::string part : {(scratch / "a.csv").string().c_str(), "not made by beamcam", "--force"})
+    for (const std::string& part :
+         {(scratch / "a.csv").string(), std::string("not made by beamcam"), std::string("--force")})
         EXPECT_TRUE(mentions(message, part)) << message;
 }
 
@@ -130,8 +131,9 @@ TEST(FileList, ALinkInThePlaceOfTheListIsNotFollowed) {
 
 TEST(FileList, TheLinesOfFilesThatAreGoneOrReplacedGoWhenTheyAreMost) {
     Scratch scratch;
-    for (const char* content : {"first", "second", "third"}) make(scratch / "a.csv", content);
-    make(scratch / "b.csv", "gone");
+    FileList files(false);
+    for (const char* content : {"first", "second", "third"}) write_file(files.target(scratch / "a.csv"), content);
+    write_file(files.target(scratch / "b.csv"), "gone");
     fs::remove(scratch / "b.csv");
     EXPECT_EQ(records_in(scratch).size(), 4u);
     FileList::recover(scratch.path());
