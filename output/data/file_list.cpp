@@ -91,6 +91,7 @@ Descriptor locked_list(const fs::path& list) {
         Descriptor opened(list, O_RDWR | O_APPEND | O_CREAT | O_NOFOLLOW | O_NONBLOCK);
         struct stat own = {}, present = {};
         if (!opened || fstat(opened.number(), &own) != 0) throw write_error(list, errno);
+        if (own.st_nlink == 0) continue;  // it was replaced just now
         if (!is_list(own)) throw IoError(fmt::format("cannot write {}: it is no plain file; remove it", list.string()));
         opened.lock();  // some file systems have no locks; then two processes may lose a line, but never a file
         if (lstat(list.c_str(), &present) == 0 && present.st_ino == own.st_ino && present.st_dev == own.st_dev)
