@@ -45,6 +45,21 @@ std::string part_of(const Output& output, const Shard& shard) {
     return std::holds_alternative<SweepOutput>(output) && !shard.whole() ? shard.text() : std::string();
 }
 
+// The end of the motion on which an output depends [s]; 0 if its own keys say where it ends.
+double end_of_inputs(const Output& output, const Scene& scene) {
+    const auto unless = [&](bool by_own_keys) { return by_own_keys ? 0 : scene.end_time; };
+    const auto is_time = [](const Instant& at) { return at.kind == Instant::Kind::time; };
+    if (std::holds_alternative<ImpactsOutput>(output) || std::holds_alternative<SummaryOutput>(output))
+        return run_end(scene);
+    if (const auto* table = std::get_if<TrajectoryOutput>(&output)) return unless(!table->times.empty());
+    if (const auto* shapes = std::get_if<ShapesOutput>(&output)) return unless(!shapes->times.empty());
+    if (const auto* p = std::get_if<PictureOutput>(&output))
+        return unless(p->kind == PictureOutput::Kind::still ? is_time(p->at) : p->span.to.has_value());
+    if (const auto* figure = std::get_if<FigureOutput>(&output))
+        return unless(figure->series.to || (figure->series.at && is_time(*figure->series.at)));
+    return scene.end_time;
+}
+
 }  // namespace
 
 std::string inputs_key(const Scene& scene, std::size_t output, const std::string& part) {
@@ -59,8 +74,7 @@ std::string inputs_key(const Scene& scene, std::size_t output, const std::string
     if (!shown.units) inputs.units = {};
     if (!shown.data) inputs.data.clear();
     if (!of_sweep) inputs.sweep.reset();
-    const Extent extent = std::visit([](const auto& o) { return o.extent(); }, one);
-    if (extent != Extent::scene || of_sweep) inputs.end_time = extent == Extent::run ? run_end(scene) : 0;
+    inputs.end_time = of_sweep ? 0 : end_of_inputs(one, scene);
     std::string other = part;
     for (const Measurement& each : inputs.data) other += "\n" + each.digest;
     if (figure) {  // not part of the scene

@@ -21,9 +21,6 @@ struct OutputInputs {
     bool title = false, units = false, data = false, sweep = false;
 };
 
-// What determines the end of the motion that an output needs: its keys, the scene's end, or the run of all outputs.
-enum class Extent { keys, scene, run };
-
 // The output types. Each is implemented in one file in outputs/: `visit` describes its keys, `plan` (plan/planner.hpp)
 // adds its needs to the plan. A new type is such a file, a struct here, and an entry in Output.
 
@@ -40,7 +37,6 @@ struct PictureOutput : Picture {
 
     bool has_frames() const { return kind == Kind::video || kind == Kind::frames; }
     static PictureOutput of(Kind kind);
-    Extent extent() const;
     void visit(SceneVisitor& v);
 };
 struct PictureType {
@@ -62,7 +58,6 @@ struct TrajectoryOutput {
     std::optional<double> rate;          // [Hz]: rows k/rate and the end; absent: rows that follow the motion
     std::vector<double> times;           // [s]: rows in this order; replaces `rate` unless empty
 
-    Extent extent() const { return times.empty() ? Extent::scene : Extent::keys; }
     void visit(SceneVisitor& v);
 };
 struct ShapesOutput {
@@ -74,7 +69,6 @@ struct ShapesOutput {
     std::vector<double> times = {};  // [s]; replaces `rate` unless empty
     int stations = 33;               // points along the beam, both ends included
 
-    Extent extent() const { return times.empty() ? Extent::scene : Extent::keys; }
     void visit(SceneVisitor& v);
 };
 struct ImpactsOutput {
@@ -82,7 +76,6 @@ struct ImpactsOutput {
     static constexpr OutputInputs kInputs{};
     std::string file;  // .json or .csv
 
-    Extent extent() const { return Extent::run; }
     void visit(SceneVisitor& v);
 };
 // A scene that continues the motion from an instant.
@@ -93,7 +86,6 @@ struct StateOutput {
     std::string file;  // .json
     double at = 0;     // [s]
 
-    Extent extent() const { return Extent::scene; }
     void visit(SceneVisitor& v);
 };
 struct SummaryOutput {
@@ -102,7 +94,6 @@ struct SummaryOutput {
     std::string file;  // .json
     bool horizon = false;
 
-    Extent extent() const { return Extent::run; }
     void visit(SceneVisitor& v);
 };
 struct SweepOutput {
@@ -111,7 +102,6 @@ struct SweepOutput {
     static constexpr OutputInputs kInputs{.sweep = true};
     std::string file;  // .nc, .csv or .npz
 
-    Extent extent() const { return Extent::keys; }
     void visit(SceneVisitor& v);
 };
 // A curve that is a sum of channels of one unit; channels without values add nothing.
@@ -171,10 +161,6 @@ struct FigureOutput {
     std::string value = {};               // column of a sweep's diagram; empty: default
     std::string data_file, caption_file;  // empty: none
 
-    Extent extent() const {
-        const bool ends = series.to || (series.at && series.at->kind == Instant::Kind::time);
-        return ends ? Extent::keys : Extent::scene;
-    }
     void visit(SceneVisitor& v);
 };
 using Output = std::variant<PictureOutput, FigureOutput, TrajectoryOutput, ShapesOutput, ImpactsOutput, StateOutput,

@@ -20,11 +20,6 @@ PictureOutput PictureOutput::of(Kind kind) {
     return picture;
 }
 
-Extent PictureOutput::extent() const {
-    const bool ends = kind == Kind::still ? at.kind == Instant::Kind::time : span.to.has_value();
-    return ends ? Extent::keys : Extent::scene;
-}
-
 std::string poster_file(const PictureOutput& video) {
     if (!video.span.poster) return {};
     return std::filesystem::path(video.file).replace_extension(".png").generic_string();
