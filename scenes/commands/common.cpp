@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "output/files/standard_output.hpp"
+#include "output/files/text_safety.hpp"
 #include "render/plot/style.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/format/absent.hpp"

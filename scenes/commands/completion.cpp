@@ -12,6 +12,7 @@
 #include "scenes/figures/figure_types.hpp"
 #include "scenes/format/description.hpp"
 #include "scenes/format/embedded.hpp"
+#include "scenes/format/presets.hpp"
 #include "sim/observe/channels.hpp"
 
 namespace beamcam::scenes {
