@@ -180,10 +180,10 @@ TEST(CommandLine, AnUnreadableFileDoesNotHideTheOthers) {
     EXPECT_THAT(finished.err, HasSubstr("none.png"));
     folder.write("bad.json", R"({"beam": 3})");
     for (const char* command : {"check", "plan", "run -n"}) {
-        const Finished finished = shell(folder, fmt::format("$BEAMCAM {} bad.json none.json s.json", command));
-        EXPECT_EQ(finished.code, 3) << command;  // of the first error
-        EXPECT_THAT(finished.err, AllOf(HasSubstr("bad.json:1:10"), HasSubstr("none.json does not exist"))) << command;
-        EXPECT_THAT(finished.out + finished.err, AnyOf(HasSubstr("s.json: fine"), HasSubstr("s.mp4"))) << command;
+        const Finished scenes = shell(folder, fmt::format("$BEAMCAM {} bad.json none.json s.json", command));
+        EXPECT_EQ(scenes.code, 3) << command;  // of the first error
+        EXPECT_THAT(scenes.err, AllOf(HasSubstr("bad.json:1:10"), HasSubstr("none.json does not exist"))) << command;
+        EXPECT_THAT(scenes.out + scenes.err, AnyOf(HasSubstr("s.json: fine"), HasSubstr("s.mp4"))) << command;
     }
 }
 

@@ -305,7 +305,9 @@ TEST(Identity, IsThatOfTheProblemHoweverItIsWritten) {
 
 // Started by the test below in a process of its own, because the identity is computed once.
 TEST(Identity, DISABLED_IsPrintedAfterAModuleIsLoaded) {
-    if (const char* module = std::getenv("BEAMCAM_TEST_LOADS")) ASSERT_TRUE(dlopen(module, RTLD_NOW)) << dlerror();
+    if (const char* module = std::getenv("BEAMCAM_TEST_LOADS")) {
+        ASSERT_TRUE(dlopen(module, RTLD_NOW)) << dlerror();
+    }
     fmt::print("identity {}\n", program_identity());
 }
 
