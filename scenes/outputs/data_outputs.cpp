@@ -52,7 +52,7 @@ void plan(Planner& planner, const TrajectoryOutput& table, const ResolvedOutput&
     std::vector<sim::Channel> columns = table.channels.empty() ? all_channels(scene.problem) : table.channels;
     const sim::Channel t{sim::ChannelKind::t, 0};
     if (std::ranges::find(columns, t) == columns.end()) columns.insert(columns.begin(), t);
-    constexpr int kPieces = 1000;    // of an adaptive table, each of which is halved where the motion needs it
+    constexpr int kPieces = 1000;    // of an adaptive table, each of which is halved where a curve needs it
     constexpr double kStray = 2e-3;  // of a channel's range: two pixels of a curve that is 1000 pixels high
     const bool adaptive = table.times.empty() && !table.rate;
     std::vector<double> instants =

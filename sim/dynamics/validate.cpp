@@ -46,7 +46,7 @@ void check_table(Issues& out, const char* t_path, const char* v_path, const std:
 void check_angle_table(Issues& out, const AngleTable& d) {
     const std::size_t before = out.list.size();
     check_table(out, "hub.drive.t", "hub.drive.theta", d.t, d.theta, 2);
-    if (out.list.size() > before || d.smooth.value_or(1) > 0) return;
+    if (out.list.size() > before || d.smooth.value_or(0) > 0) return;
     const std::optional<double> step = table_step(d.theta);
     if (!d.smooth && !step)
         out.error("hub.drive.smooth",

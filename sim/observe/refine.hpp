@@ -28,8 +28,8 @@ class PlaneCurve {
     bool is_outside(Vec2 from, Vec2 centre, Vec2 to) const {
         return std::max({from.x, centre.x, to.x}) < drawn_.first || std::min({from.x, centre.x, to.x}) > drawn_.second;
     }
-    // False where the curve has no value.
-    bool strays(Vec2 from, Vec2 to, Vec2 p, double) const {
+    // Of a point between the ends of a piece. False where the curve has no value.
+    bool strays(Vec2 from, Vec2 to, Vec2 p, double /*share*/) const {
         const auto end = [](double drawn, double seen) { return std::isfinite(drawn) ? drawn : seen; };
         const Vec2 range{end(drawn_.second, high_.x) - end(drawn_.first, low_.x), high_.y - low_.y};
         const auto scaled = [&](Vec2 v) {
@@ -48,34 +48,38 @@ class PlaneCurve {
     Vec2 low_{kInfinity, kInfinity}, high_{-kInfinity, -kInfinity};
 };
 
-// The error of linear interpolation in time, of several channels, each by its range so far.
-class ChannelLines {
+// The values of several channels at an instant.
+struct ChannelPoint {
+    double t = 0;
+    std::vector<double> values = {};
+};
+
+// The curves of several channels against time; a point strays from a piece if it does in one of them.
+class ChannelCurves {
   public:
-    using Point = std::vector<double>;
-    // `rounding`: of each channel, a difference that does not matter; infinite: the channel is not followed.
-    ChannelLines(std::vector<double> rounding, double stray)
-        : rounding_(std::move(rounding)),
-          most_(stray),
-          low_(rounding_.size(), std::numeric_limits<double>::infinity()),
-          high_(rounding_.size(), -std::numeric_limits<double>::infinity()) {}
+    using Point = ChannelPoint;
+    // `drawn`: first and last time of the curves. `rounding`: of each channel, a difference that does not matter;
+    // infinite: the channel is not followed.
+    ChannelCurves(std::pair<double, double> drawn, std::vector<double> rounding, double stray)
+        : curves_(rounding.size(), PlaneCurve(drawn, stray)), rounding_(std::move(rounding)) {}
 
     void see(const Point& p) {
-        for (std::size_t c = 0; c < p.size(); ++c)
-            low_[c] = std::min(low_[c], p[c]), high_[c] = std::max(high_[c], p[c]);
+        for (std::size_t c = 0; c < curves_.size(); ++c) curves_[c].see({p.t, p.values[c]});
     }
     bool is_outside(const Point&, const Point&, const Point&) const { return false; }
-    // `share`: of the piece's time at p.
     bool strays(const Point& from, const Point& to, const Point& p, double share) const {
-        for (std::size_t c = 0; c < p.size(); ++c)
-            if (std::fabs(p[c] - std::lerp(from[c], to[c], share)) > most_ * (high_[c] - low_[c]) + rounding_[c])
+        for (std::size_t c = 0; c < curves_.size(); ++c) {
+            const double a = from.values[c], b = to.values[c], value = p.values[c];
+            if (std::fabs(value - std::lerp(a, b, share)) > rounding_[c] &&
+                curves_[c].strays({from.t, a}, {to.t, b}, {p.t, value}, share))
                 return true;
+        }
         return false;
     }
 
   private:
+    std::vector<PlaneCurve> curves_;
     std::vector<double> rounding_;
-    double most_;
-    Point low_, high_;
 };
 
 template <class Measure>

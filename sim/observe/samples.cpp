@@ -33,6 +33,12 @@ std::vector<double> rounding_of(const std::vector<Channel>& channels, const Prob
     return out;
 }
 
+std::pair<double, double> span_of(const TableRequest& table) {
+    if (table.times.empty()) return {0, 0};
+    const auto [first, last] = std::ranges::minmax(table.times);
+    return {first, last};
+}
+
 }  // namespace
 
 SampleRecorder::SampleRecorder(const Request& request, ChannelEvaluator& evaluator, Result& result,
@@ -49,7 +55,7 @@ SampleRecorder::SampleRecorder(const Request& request, ChannelEvaluator& evaluat
         result_.tables.back().values.assign(table.channels.size(), std::vector<double>(table.times.size(), kNan));
         const std::vector<double> rounding = rounding_of(table.channels, evaluator.system().problem());
         refined_.push_back({{PlaneCurve(table.drawn, table.stray), kMostCurveHalvings},
-                            {ChannelLines(rounding, table.stray), kMostRowHalvings},
+                            {ChannelCurves(span_of(table), rounding, table.stray), kMostRowHalvings},
                             {},
                             std::vector<std::vector<double>>(table.channels.size())});
     }
@@ -154,7 +160,9 @@ void SampleRecorder::refine_tables(const SegmentInterval& s, const std::vector<s
         const TableRequest& table = request_.tables[i];
         if (table.times.empty()) continue;
         if (table.adaptive)
-            refine_table(s, i, before[i], refined_[i].lines, [&](double t) { return row(s, t, table.channels); });
+            refine_table(s, i, before[i], refined_[i].channels, [&](double t) {
+                return ChannelPoint{t, row(s, t, table.channels)};
+            });
         if (!table.curve) continue;
         const std::vector<Channel> curve{table.curve->first, table.curve->second};
         refine_table(s, i, before[i], refined_[i].curve, [&](double t) {
@@ -179,8 +187,8 @@ void SampleRecorder::refine_table(const SegmentInterval& s, std::size_t i, std::
         for (std::size_t c = 0; c < values.size(); ++c) rows.values[c].push_back(values[c]);
     };
     const auto keep = [&](double t, const typename Refiner::Point& point) {
-        if constexpr (std::is_same_v<typename Refiner::Point, std::vector<double>>)
-            put(t, point);
+        if constexpr (std::is_same_v<typename Refiner::Point, ChannelPoint>)
+            put(t, point.values);
         else
             put(t, row(s, t, table.channels));
     };
@@ -218,22 +226,22 @@ std::vector<std::size_t> SampleRecorder::kept_rows(std::size_t i, const std::vec
     const std::vector<std::size_t> order = ascending(times).order;
     if (!request_.tables[i].adaptive) return order;
     const auto point = [&](std::size_t row) {
-        std::vector<double> out;
-        for (const std::vector<double>& channel : values) out.push_back(channel[row]);
+        ChannelPoint out{times[row]};
+        for (const std::vector<double>& channel : values) out.values.push_back(channel[row]);
         return out;
     };
     std::vector<std::size_t> kept;
     for (std::size_t first = 0, end = 0; first < order.size(); first = end) {
         while (end < order.size() && times[order[end]] == times[order[first]]) ++end;
         kept.push_back(order[first]);
-        const std::vector<double> before = point(order[first]), after = point(order[end - 1]);
-        if (refined_[i].lines.measure().strays(before, before, after, 0)) kept.push_back(order[end - 1]);
+        const ChannelPoint before = point(order[first]), after = point(order[end - 1]);
+        if (refined_[i].channels.measure().strays(before, before, after, 0)) kept.push_back(order[end - 1]);
     }
     return kept;
 }
 
 bool SampleRecorder::has_full_table() const {
-    return std::ranges::any_of(refined_, [](const RefinedRows& rows) { return rows.lines.is_full(); });
+    return std::ranges::any_of(refined_, [](const RefinedRows& rows) { return rows.channels.is_full(); });
 }
 
 void SampleRecorder::put_pose(const SegmentInterval& s, double t, std::size_t i, std::size_t row) {

@@ -54,7 +54,7 @@ class SampleRecorder {
     std::vector<Cursor> table_cursors_, pose_cursors_, point_cursors_;
     struct RefinedRows {  // between the times of a table with a curve, or of an adaptive one
         PieceRefiner<PlaneCurve> curve;
-        PieceRefiner<ChannelLines> lines;
+        PieceRefiner<ChannelCurves> channels;
         std::vector<double> times;
         std::vector<std::vector<double>> values;  // by channel
     };

@@ -1,4 +1,4 @@
-// Tables whose rows follow every channel, and warnings of tables whose rows do not.
+// Tables whose rows follow the curves of all channels, and warnings of tables whose rows do not.
 #include <algorithm>
 #include <cmath>
 
@@ -31,7 +31,7 @@ double largest_force(const Result& result) {
 class AdaptiveRows : public ::testing::TestWithParam<ModelKind> {};
 
 // Against an independent integration at instants between the rows: halfway, and at a share that no halving uses.
-TEST_P(AdaptiveRows, FollowEveryChannelByLines) {
+TEST_P(AdaptiveRows, FollowTheCurveOfEveryChannel) {
     Problem p;
     p.beam.model = GetParam();
     set_tolerance(p, 1e-10);
@@ -52,11 +52,15 @@ TEST_P(AdaptiveRows, FollowEveryChannelByLines) {
         if (channel.kind == ChannelKind::contact_s || channel.kind == ChannelKind::energy_residual) continue;
         const std::vector<double>& v = table.values[c];
         const auto [low, high] = std::ranges::minmax(v);
+        if (!(high > low)) continue;  // of a channel that is zero
         for (std::size_t k = 0; k < between.size(); ++k) {
             const std::size_t i = k / 2;
-            const double line = std::lerp(v[i], v[i + 1], k % 2 == 0 ? 0.5 : 0.2137);
-            // A third more between the two instants at which a piece is checked; rounding of an undamped channel.
-            EXPECT_LE(std::fabs(line - truth.values[c][k]), 1.35 * kStray * (high - low) + 1e-8)
+            const double along = (t[i + 1] - t[i]) / end, rise = (v[i + 1] - v[i]) / (high - low);
+            const double off = (between[k] - t[i]) / end, up = (truth.values[c][k] - v[i]) / (high - low);
+            const double length = along * along + rise * rise,
+                         share = length > 0 ? std::clamp((off * along + up * rise) / length, 0.0, 1.0) : 0;
+            // A piece is checked at two instants; between them a crest may rise above by a half more.
+            EXPECT_LE(std::hypot(off - share * along, up - share * rise), 1.5 * kStray)
                 << name(channel) << " at " << between[k];
         }
     }
@@ -71,11 +75,12 @@ TEST(AdaptiveRows, ReachTheLargestForce) {
     const Table& table = result.tables[0];
     const auto force = std::ranges::find(table.channels, channel("contact_force")) - table.channels.begin();
     EXPECT_GE(largest(table.values[static_cast<std::size_t>(force)]), (1 - 2 * kStray) * largest_force(result));
-    EXPECT_LE(table.rows(), 30000u);
+    EXPECT_LE(table.rows(), 10000u);
     EXPECT_TRUE(result.warnings.empty()) << result.warnings.front();
 }
 
-// A pendulum between two of its turns is a parabola at rtol: the number of rows is that of the sagitta h²θ̈/8.
+// A falling pendulum is nearly a parabola. Pieces with a sagitta h²θ̈/8 of 0.2 % of its range are 15; those near the
+// start, where the range so far is small, are shorter.
 TEST(AdaptiveRows, AreNoMoreThanNeeded) {
     Problem p = falling_beam(ModelKind::rigid);
     Request request;
@@ -84,7 +89,7 @@ TEST(AdaptiveRows, AreNoMoreThanNeeded) {
     request.tables[0].stray = kStray;
     const std::size_t rows = simulate(p, request).tables[0].rows();
     EXPECT_GE(rows, 8u);
-    EXPECT_LE(rows, 40u);
+    EXPECT_LE(rows, 100u);
 }
 
 TEST(AdaptiveRows, AtAJumpAreItsTwoSides) {
@@ -100,8 +105,10 @@ TEST(AdaptiveRows, AtAJumpAreItsTwoSides) {
     ASSERT_EQ(last - first, 2);
     const auto* values =
         &table.values[static_cast<std::size_t>(rate)][static_cast<std::size_t>(first - table.values[0].begin())];
-    EXPECT_EQ(values[0], impact.at_touch->theta_dot);
-    EXPECT_EQ(values[1], impact.at_release->theta_dot);
+    EXPECT_NEAR(values[0], impact.at_touch->theta_dot, 1e-12);
+    EXPECT_NEAR(values[1], impact.at_release->theta_dot, 1e-12);
+    EXPECT_LT(values[0], 0);
+    EXPECT_GT(values[1], 0);
     for (std::size_t i = 2; i < table.rows(); ++i) EXPECT_GT(table.values[0][i], table.values[0][i - 2]);
 }
 
