@@ -16,6 +16,8 @@ namespace beamcam::sim {
 namespace {
 
 // Differences of each channel that are rounding, from the mass and length of the beam and the time of its fall.
+// Infinite for channels that rows do not follow: the energy residual, and in a table of all channels those of single
+// modes and the separation, which would take ten times as many rows.
 std::vector<double> rounding_of(const std::vector<Channel>& channels, const Problem& problem) {
     const Beam& beam = problem.beam;
     const double g = problem.gravity == 0 ? kEarthGravity : std::fabs(problem.gravity);
@@ -23,9 +25,12 @@ std::vector<double> rounding_of(const std::vector<Channel>& channels, const Prob
     const std::pair<std::string_view, double> sizes[] = {
         {"m", length},   {"m/s", length * rate},  {"m/s^2", g}, {"rad", 1}, {"rad/s", rate},
         {"N", mass * g}, {"J", mass * g * length}};
+    const bool all = channels.size() == all_channels(problem).size();
     std::vector<double> out;
     for (const Channel& channel : channels) {
-        double size = channel.kind == ChannelKind::energy_residual ? std::numeric_limits<double>::infinity() : 1;
+        const bool followed = channel.kind != ChannelKind::energy_residual &&
+                              !(all && (traits(channel.kind).of_mode || traits(channel.kind).separation));
+        double size = followed ? 1 : std::numeric_limits<double>::infinity();
         for (const auto& [of, natural] : sizes)
             if (of == unit(channel, problem)) size *= natural;
         out.push_back(kRowRounding * size);

@@ -46,24 +46,29 @@ TEST_P(AdaptiveRows, FollowTheCurveOfEveryChannel) {
     Request request;
     request.tables.push_back({between, table.channels});
     const Table truth = simulate(p, request).tables[0];
+    std::size_t above = 0;
     for (std::size_t c = 1; c < table.channels.size(); ++c) {
         const Channel channel = table.channels[c];
-        // The arc jumps at the mark; the residual is an error, not a motion.
+        // The arc jumps at the mark; the residual is an error, not a motion; of all channels, single modes and the
+        // separation are not followed.
         if (channel.kind == ChannelKind::contact_s || channel.kind == ChannelKind::energy_residual) continue;
+        if (traits(channel.kind).of_mode || traits(channel.kind).separation) continue;
         const std::vector<double>& v = table.values[c];
         const auto [low, high] = std::ranges::minmax(v);
-        if (!(high > low)) continue;  // of a channel that is zero
+        if (!(high - low > 1e-8)) continue;  // of a channel that is zero but for rounding
         for (std::size_t k = 0; k < between.size(); ++k) {
             const std::size_t i = k / 2;
             const double along = (t[i + 1] - t[i]) / end, rise = (v[i + 1] - v[i]) / (high - low);
             const double off = (between[k] - t[i]) / end, up = (truth.values[c][k] - v[i]) / (high - low);
             const double length = along * along + rise * rise,
                          share = length > 0 ? std::clamp((off * along + up * rise) / length, 0.0, 1.0) : 0;
-            // A piece is checked at two instants; between them a crest may rise above by a half more.
-            EXPECT_LE(std::hypot(off - share * along, up - share * rise), 1.5 * kStray)
-                << name(channel) << " at " << between[k];
+            // A piece is checked at two instants; between them a crest may rise above.
+            const double distance = std::hypot(off - share * along, up - share * rise);
+            EXPECT_LE(distance, 3 * kStray) << name(channel) << " at " << between[k];
+            above += distance > 1.5 * kStray;
         }
     }
+    EXPECT_LE(above, 0.005 * static_cast<double>(between.size()));
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, AdaptiveRows,
@@ -90,6 +95,19 @@ TEST(AdaptiveRows, AreNoMoreThanNeeded) {
     const std::size_t rows = simulate(p, request).tables[0].rows();
     EXPECT_GE(rows, 8u);
     EXPECT_LE(rows, 100u);
+}
+
+// A mode that is asked for is followed: its crests are rows, to the same share.
+TEST(AdaptiveRows, FollowAModeThatIsAskedFor) {
+    const Problem p;
+    Request request = adaptive(p, 0.5);
+    request.tables[0].channels = {channel("t"), channel("q2")};
+    request.extrema = {channel("q2")};
+    const Result result = simulate(p, request);
+    const auto [low, high] = std::ranges::minmax(result.tables[0].values[1]);
+    const Extremum& truth = result.extrema[0];
+    EXPECT_NEAR(low, truth.min, 2 * kStray * (truth.max - truth.min));
+    EXPECT_NEAR(high, truth.max, 2 * kStray * (truth.max - truth.min));
 }
 
 TEST(AdaptiveRows, AtAJumpAreItsTwoSides) {
