@@ -80,7 +80,6 @@ constexpr Absent kAbsent[] = {
     {WordKind::command, "sheet", "it was withdrawn; write ffmpeg -i FILM.mp4 -vf fps=1,tile=4x3 -frames:v 1 SHEET.png"},
     {WordKind::command, "paper", "it was withdrawn; write beamcam run scenes/paper/*.json -o paper"},
     {WordKind::command, "stress", "it was withdrawn; tests/campaign of the source has the campaign"},
-    {WordKind::command, "hash", "it was withdrawn; write sha256sum FILE, or ffmpeg -i FILM -f framehash -"},
     {WordKind::command, "help", "write beamcam --help"},
     {WordKind::command, "version", "write beamcam --version"},
 
