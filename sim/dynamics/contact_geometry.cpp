@@ -70,7 +70,9 @@ Vec2 ContactGeometry::foot(const Model& model, Vec2 disc, ContactState& c) {
             const bool free_end = edge == 0 || edge == length_;
             next = free_end && bend > 0 ? edge : 0.5 * (low + high);
         }
-        if (std::fabs(next - x) <= kFootChange * length_) break;
+        // At an end the slope there decides, however near it is.
+        const bool inside = next > 0 && next < length_;
+        if (next == x || (inside && std::fabs(next - x) <= kFootChange * length_)) break;
         x = next;
     }
     x_last_ = x;

@@ -201,6 +201,29 @@ TEST(ContactGeometry, TouchesTheTipWhenTheDiscLiesBeyond) {
     EXPECT_NEAR(c.gap, norm(unit(0.5) - Vec2{1.3, 0}) - 0.1, 1e-15);
 }
 
+// The search starts from the last foot, which may lie nearer to the tip than its rounding.
+TEST(ContactGeometry, TouchesTheTipHoweverNearTheLastFootWas) {
+    Problem p;
+    p.beam.model = ModelKind::rigid;
+    p.cam->eccentricity = 0;
+    p.cam->speed = 0;
+    for (const double beyond : {1e-3, 1e-9, 1e-13})
+        for (const double near : {1e-16, 3e-16, 2e-15, 1e-14, 1e-10, 1e-3}) {
+            p.cam->centre = {p.beam.length - near, -p.cam->radius};
+            const double y[2] = {};
+            System inside(p);
+            ContactState c = inside.contact(0, y, true);
+            const double x = c.x;
+            p.cam->centre.x = p.beam.length + beyond;
+            System system(p);
+            system.begin_contact_at(x);
+            c = system.contact(0, y, false);
+            EXPECT_TRUE(c.at_end) << beyond << " " << near;
+            EXPECT_EQ(c.x, p.beam.length) << beyond << " " << near;
+            EXPECT_GE(c.gap, std::hypot(beyond, p.cam->radius) - p.cam->radius - 1e-15);
+        }
+}
+
 TEST(ContactGeometry, RootIsAnEndToo) {
     Problem p = fixed_cam(ModelKind::rigid);
     p.hub.radius = 0.5;

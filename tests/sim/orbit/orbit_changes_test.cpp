@@ -107,6 +107,37 @@ TEST(OrbitChanges, ACornerIsWhereTheStrikePassesTheTip) {
     }
 }
 
+// The contact passes the tip and returns in every turn; the force has two jumps, the state none.
+TEST(OrbitChanges, ABeamThatFollowsTheCamWithItsTipIsFollowedInLongSteps) {
+    SKIP_UNDER_SANITIZERS();
+    const Family family = [](double speed) {
+        Problem p;
+        p.beam.modes = 1;
+        p.beam.damping_ratio = {0.1};
+        p.hub = {0, 0.05, ConstantTorque{-1.5}};
+        p.cam = Cam{{1.004, 0}, 0.1, 0.002, 0.5, speed, {}, 0.3};
+        p.contact.model = ContactModel::restitution;
+        p.contact.restitution = 0.4;
+        p.initial.angle = 0.12;
+        return p;
+    };
+    OrbitRequest search;
+    search.transient = 20;
+    const std::vector<PeriodicOrbit> found = find_orbits(family(54.9), search);
+    ASSERT_EQ(found.size(), 1u);
+    ASSERT_TRUE(found.front().always_touching());
+    ContinuationRequest request;
+    request.from = 54.8;
+    request.to = 55;
+    request.step = 0.1;
+    const std::vector<Branch> branches = continue_orbit(family, {54.9, found.front()}, request);
+    ASSERT_EQ(branches.size(), 1u);
+    EXPECT_LT(branches.front().points.size(), 40u);
+    EXPECT_TRUE(branches.front().special.empty());
+    EXPECT_EQ(branches.front().points.front().parameter, 54.8);
+    EXPECT_EQ(branches.front().points.back().parameter, 55.0);
+}
+
 // The beam follows the cam until the cam falls faster than the torque accelerates the beam: θ̈_c = −α.
 TEST(OrbitChanges, FollowingIsReleasedWhereTheCamFallsFasterThanThePull) {
     const PressedBeam b;
