@@ -23,4 +23,9 @@ struct InertiaLost : StepFailure {
     InertiaLost() : StepFailure("the inertia of the model is not positive") {}
 };
 
+// Friction presses the beam into the cam by more than the contact force pushes it off: no force ends the contact.
+struct ContactLocked : StepFailure {
+    ContactLocked() : StepFailure("the equations of the impact have no solution") {}
+};
+
 }  // namespace beamcam::sim

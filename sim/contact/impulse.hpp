@@ -80,8 +80,8 @@ T remaining(const State<T>& now, const T& rate, const T& v_n_before, double rest
 
 }  // namespace impulse
 
-// v_n < 0 approaches. `friction` is μ >= 0, `restitution` in [0, 1]. Throws StepFailure where no impulse ends the
-// impact (jamming of a singular compliance).
+// v_n < 0 approaches. `friction` is μ >= 0, `restitution` in [0, 1]. Throws ContactLocked where no impulse ends
+// the impact (jamming of a singular compliance).
 template <class T>
 ImpactResultOf<T> resolve_impact(const ComplianceOf<T>& c, const std::type_identity_t<T>& v_n,
                                  const std::type_identity_t<T>& v_t, double friction, double restitution,
@@ -103,7 +103,7 @@ ImpactResultOf<T> resolve_impact(const ComplianceOf<T>& c, const std::type_ident
         const bool ends = end <= step;
         if (ends) step = end > 0 ? end : T(0);
         // Never for a positive definite compliance.
-        if (!isfinite(step)) throw StepFailure("the equations of the impact have no solution");
+        if (!isfinite(step)) throw ContactLocked();
         (now.compressing ? now.compression_work : now.restitution_work) += now.v_n * step + 0.5 * rate * step * step;
         now.impulse_n += step;
         now.v_n += rate * step;

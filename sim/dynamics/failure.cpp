@@ -19,6 +19,7 @@ struct BeamState {
     double theta_dot = 0;              // |θ̇| [rad/s]
     double approach = 0;               // approach speed of the touch [m/s]
     double mass = 0;                   // effective mass at the contact point [kg]
+    double x = 0, lock = 0;            // of the contact [m]; the coefficient of friction above which it may lock
 };
 
 BeamState beam_state(double t, System& system, const double* y) {
@@ -34,8 +35,10 @@ BeamState beam_state(double t, System& system, const double* y) {
     if (!system.has_cam()) return out;
     try {
         const ContactState c = system.contact(t, y, true);
-        const double per_newton = system.compliance(t, y, c).nn;
-        if (per_newton > 0) out.mass = 1 / per_newton;
+        const Compliance response = system.compliance(t, y, c);
+        if (response.nn > 0) out.mass = 1 / response.nn;
+        out.x = c.x;
+        out.lock = response.nn / std::fabs(response.nt);
     } catch (const InertiaLost&) {
         // The effective mass stays zero; inertia_message describes this failure.
     }
@@ -125,6 +128,15 @@ std::string passed_cam_message(const Problem& p, const BeamState& beam) {
         beam.approach, depth, law, radius, stiffness, depth / kUsableDepth);
 }
 
+std::string locked_message(const Problem& p, const BeamState& beam) {
+    return fmt::format(
+        "friction locks the beam to the cam: at x = {:.3g} m, with the face {:.3g} m off the centre line, a "
+        "coefficient "
+        "above {:.2g} presses the beam into the cam by more than the contact force pushes it off; use a smaller "
+        "contact.friction.coefficient or contact.offset, or another direction of cam.speed",
+        beam.x, contact_offset(p), beam.lock);
+}
+
 std::string stuck_message(const Problem& p) {
     std::string what = "touch and release follow each other without progress in time: ";
     if (p.contact.model == ContactModel::restitution)
@@ -190,6 +202,8 @@ std::string cause(const Failure& failure, System& system, const BeamState& beam)
                 step_size_limits(p, system, beam, false));
         case Stop::passed_cam:
             return passed_cam_message(p, beam);
+        case Stop::locked:
+            return locked_message(p, beam);
         case Stop::inertia_lost:
             return large_deflection(p, beam) ? deflection_message(p, beam) : inertia_message(p);
         case Stop::stuck:

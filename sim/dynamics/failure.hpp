@@ -12,6 +12,7 @@ enum class Stop {
     too_slow,      // at the present step size the run needs far more than solver.max_steps
     inertia_lost,  // the model's inertia is no longer positive
     passed_cam,    // the beam was pressed over the centre of the disc
+    locked,        // friction presses the beam into the cam
     stuck,         // events follow each other without progress in time
     method         // the integrator failed: `message`
 };

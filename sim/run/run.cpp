@@ -54,6 +54,7 @@ std::vector<Result> Run::integrate() {
         while (state_.t < end_ && !output_.done()) {
             check_budget();
             check_deflection();
+            check_lock();
             process(step());
         }
     } catch (const StepFailure& failure) {
@@ -182,6 +183,18 @@ void Run::check_deflection() const {
             throw StepFailure("the deflection grows without bound");
 }
 
+// Stops where friction keeps a rigid beam in a compliant contact that deepens, as it does in an impact (S43): the force
+// would grow until the beam has passed the cam. A small force may still be overcome by the load on the beam.
+void Run::check_lock() {
+    if (!state_.phase.touching || state_.phase.held || steps_ % kStepsPerReport != 0) return;
+    if (dynamics_.coordinates() > 1 || is_prescribed(problem_.hub.drive) || dynamics_.friction().none()) return;
+    System& system = probe_.system;
+    const ContactState c = system.contact(state_.t, state_.y.data(), true);
+    const Compliance response = system.compliance(state_.t, state_.y.data(), c);
+    if (c.force * response.nn > std::fabs(system.free_gap_acceleration(state_.t, state_.y.data())))
+        resolve_impact(response, c.gap_rate, c.slip, system.friction().kinetic, 0, ImpactLaw::newton);
+}
+
 // The next instant at which the right-hand side is not smooth, or summed-up chatter ends.
 double Run::next_kink() const {
     const double kink = kinks_.empty() ? std::numeric_limits<double>::infinity() : kinks_.front();
@@ -220,6 +233,7 @@ std::string Run::explain(const StepFailure& failure) {
     const auto* stopped = dynamic_cast<const RunStopped*>(&failure);
     Stop why = stopped ? stopped->why : Stop::method;
     if (dynamic_cast<const InertiaLost*>(&failure) || dynamics_.inertia_lost()) why = Stop::inertia_lost;
+    if (dynamic_cast<const ContactLocked*>(&failure)) why = Stop::locked;
     transitions_.enter_phase();
     return sim::explain({why, failure.what(), state_.t, last_step_, projected_steps_}, probe_.system, state_.y.data());
 }

@@ -42,6 +42,7 @@ class Run {
     void resume();
     void check_budget();
     void check_deflection() const;
+    void check_lock();
     double next_kink() const;
     bool is_reached(double t) const;
     void pass_kinks();

@@ -124,6 +124,35 @@ TEST(Failure, AProjectedExcessOfTheBudgetStopsTheRunEarly) {
                                           HasSubstr("1 mode up to")));
 }
 
+// The face lies so far from the centre line that friction turns the beam into the cam, in both models of contact and
+// for each kind of friction.
+TEST(Failure, FrictionThatLocksTheContactIsNamedAtOnce) {
+    Problem p;
+    p.beam.model = ModelKind::rigid;
+    p.cam->centre = {0.4, -0.2};
+    p.cam->radius = 0.1;
+    p.cam->eccentricity = 0;
+    p.cam->speed = -20;
+    p.contact.restitution = 0.9;
+    p.contact.offset = 0.3;
+    p.initial.angle = 1.2;
+    for (const ContactModel model : {ContactModel::compliant, ContactModel::restitution})
+        for (const double coefficient : {0.5, 0.8, 1.2, 3.0})
+            for (const bool bristle : {false, true}) {
+                SCOPED_TRACE(::testing::Message() << name(model) << " " << coefficient << " " << bristle);
+                p.contact.model = model;
+                if (bristle)
+                    p.contact.friction = StickSlipFriction{.coefficient = coefficient};
+                else
+                    p.contact.friction = CoulombFriction{coefficient};
+                const std::string message = message_of(p, 1.5);
+                if (coefficient < 0.6)
+                    EXPECT_EQ(message, "");
+                else
+                    EXPECT_NE(message.find("friction locks the beam to the cam"), std::string::npos) << message;
+            }
+}
+
 TEST(Failure, AToleranceThatNoStepMeetsHasAClearMessage) {
     for (const Method method : {Method::automatic, Method::rk8, Method::cvode_adams, Method::arkode_erk}) {
         Problem p;
