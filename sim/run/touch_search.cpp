@@ -106,6 +106,7 @@ std::optional<double> TouchSearch::by_advancement(const Segment& segment, const 
     const double far = problem().cam->radius + probe_.system.offset() + std::max(c.gap, 0.0) + h * speed;
     const double most = gap_acceleration_bound(bounds, far);
     if (!std::isfinite(most)) return by_resolving(segment);
+    const Advancement gap{most, most};
     if (t == state_.phase_start) {
         if (!(c.gap_rate > kRestSpeed)) {
             // The beam hardly leaves the surface: sample densely at first.
@@ -115,7 +116,7 @@ std::optional<double> TouchSearch::by_advancement(const Segment& segment, const 
         }
         c.gap = std::max(c.gap, 0.0);  // rounding at the release
     }
-    return advance(segment, t, c, bounds, most);
+    return advance(segment, t, c, bounds, gap);
 }
 
 // An instant up to which the gap of the straight beam is so much larger than the deflection that nothing touches; the
@@ -137,9 +138,9 @@ double TouchSearch::while_far(const Segment& segment, const MotionBounds& bounds
     return segment.t1;
 }
 
-// Advances from t, with the gap c.gap and |g̈| <= most.
+// Advances from t, with the gap c.gap.
 std::optional<double> TouchSearch::advance(const Segment& segment, double t, ContactState c, const MotionBounds& bounds,
-                                           double most) {
+                                           const Advancement& gap) {
     const double h = segment.t1 - segment.t0;
     for (long count = 0; count < kMaxAdvances; ++count) {
         if (count % kEvaluationsPerReport == kEvaluationsPerReport - 1) report_(segment.t0);
@@ -148,12 +149,8 @@ std::optional<double> TouchSearch::advance(const Segment& segment, double t, Con
         // An opening gap is negative only by rounding.
         if (c.gap < 0 && c.gap_rate > 0 && c.gap > -kLowestBounce * problem().beam.length) c.gap = 0;
         if (c.gap < 0 || (c.gap == 0 && c.gap_rate < 0)) return t;
-        const double falls = c.gap_rate * c.gap_rate - 2 * most * c.gap;
-        if (c.gap_rate < 0 && falls > 0) {
-            const double latest = t - (c.gap_rate + std::sqrt(falls)) / most;
-            return falling(segment, t, c, latest);
-        }
-        const double safe = (c.gap_rate + std::sqrt(c.gap_rate * c.gap_rate + 2 * most * c.gap)) / most;
+        if (const auto certain = gap.certain_time(c.gap, c.gap_rate)) return falling(segment, t, c, t + *certain);
+        const double safe = gap.clear_time(c.gap, c.gap_rate);
         const double next = while_far(segment, bounds, t + std::max(safe, kShortestAdvanceShare * t));
         if (next >= segment.t1) return {};
         t = next;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "sim/integrate/event_search.hpp"
+#include "sim/run/advancement.hpp"
 #include "sim/run/run_state.hpp"
 #include "sim/run/segment_probe.hpp"
 
@@ -22,7 +23,7 @@ class TouchSearch {
     std::optional<double> by_advancement(const Segment& segment, const MotionBounds& bounds);
     double while_far(const Segment& segment, const MotionBounds& bounds, double t);
     std::optional<double> advance(const Segment& segment, double t, ContactState c, const MotionBounds& bounds,
-                                  double most);
+                                  const Advancement& gap);
     std::optional<double> by_resolving(const Segment& segment);
     std::optional<double> falling(const Segment& segment, double t, ContactState c, double latest);
     bool opens(const Segment& segment, double t);

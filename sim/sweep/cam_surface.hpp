@@ -1,5 +1,6 @@
-// The angle at which a straight beam touches the cam, and the intervals in which the cam presses against it. MODEL.md
-// (S81), (S82). The beam is on the counter-clockwise side of the disc; RigidMotion mirrors the other side.
+// The angle at which a straight beam touches the cam, bounds of its acceleration, and the intervals in which the cam
+// presses against the beam. MODEL.md (S81), (S82), (S84). The beam is on the counter-clockwise side of the disc;
+// RigidMotion mirrors the other side.
 #pragma once
 
 #include <vector>
@@ -16,7 +17,8 @@ struct SurfaceAngle {
 
 class CamSurface {
   public:
-    // `reach` = R + d. The beam's own acceleration is α − k cos θ.
+    // `reach` = R + d. The beam's own acceleration is α − k cos θ. The hub's axis lies outside of the disc enlarged to
+    // `reach`, at every angle of the cam.
     CamSurface(const Cam& cam, double reach, double k, double alpha);
 
     SurfaceAngle at(double s) const;                                            // s: time within the turn [s]
@@ -25,6 +27,7 @@ class CamSurface {
     // f = θ̈_c + k cos θ_c − α [rad/s²], positive where a beam that follows the cam needs a contact force.
     double push(const SurfaceAngle& c) const;
 
+    // No θ̈_c of the turn lies beyond these; they exceed its extrema by less than a hundredth of its range.
     double highest_acceleration() const { return highest_; }
     double lowest_acceleration() const { return lowest_; }
 
@@ -37,7 +40,19 @@ class CamSurface {
     bool always_pulls() const { return always_pulls_; }
 
   private:
-    void find_lifts(const std::vector<double>& pushes);  // f at equal intervals around the turn
+    // θ̈_c and f at an instant.
+    struct Place {
+        double s, acceleration, push;
+    };
+    // Bounds of |d²θ̈_c/ds²| and |d²f/ds²| within an interval.
+    struct Bends {
+        double acceleration, push;
+    };
+    Place place(double s) const;
+    Bends bends(double from, double to) const;
+    void bound_acceleration(const Place& a, const Place& b, double margin, int halvings);
+    void find_zeros(const Place& a, const Place& b, int halvings, std::vector<double>& zeros) const;
+    void set_lifts(std::vector<double> zeros, bool starts_pulled);
 
     Cam cam_;
     double reach_, k_, alpha_, period_;

@@ -28,9 +28,11 @@ inline constexpr int kCarriedRounds = 8;     // Newton iterations that move a ca
 inline constexpr double kWholeTurn = 1e-12;  // of the number of turns: rounding of a time in turns
 
 // ---- the rigid beam between impacts ----
-inline constexpr int kSurfacePlaces = 720;         // samples around the turn: half a degree
-inline constexpr double kLiftMargin = 0.01;        // of the range of θ̈_c: margin for extrema between two samples
-inline constexpr double kInsideBeam = 1e-3;        // of the length: least distance of the contact from the beam's ends
+inline constexpr int kSurfacePlaces = 128;       // around the turn, to begin with: then halved where bounds ask for it
+inline constexpr double kSurfaceMargin = 0.005;  // of the range of θ̈_c, by which its bounds may exceed its extrema
+inline constexpr int kMostSurfaceHalvings = 30;  // of the distance of two places, to rounding
+inline constexpr double kInsideBeam =
+    1e-3;  // of the length: least distance of the contact from the beam's ends and the axis
 inline constexpr double kRigidAccuracy = 1e-13;    // [rad] error of a settled motion: some hundred rounding errors
 inline constexpr double kOpeningDepth = 1e-13;     // [rad] below the surface while the gap opens: rounding
 inline constexpr double kAngleRounding = 2e-16;    // [rad] rounding of an angle; limit of the last terms of its series

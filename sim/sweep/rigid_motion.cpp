@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/base/numerics.hpp"
+#include "sim/run/advancement.hpp"
 #include "sim/run/constants.hpp"
 #include "sim/sweep/constants.hpp"
 #include "sim/sweep/sampler.hpp"
@@ -75,8 +76,8 @@ SurfaceAngle RigidMotion::surface_at(double s) {
 // By advancement as in (S56), on the angle above the surface G = θ − θ_c: G̈ lies between −(max θ̈_c + |k| − α) and
 // |k| + α − min θ̈_c.                                                                                       (S84)
 std::optional<double> RigidMotion::first_touch(double h) {
-    const double most = std::fabs(mirrored_.k) - mirrored_.alpha + surface_.highest_acceleration();
-    const double least = std::fabs(mirrored_.k) + mirrored_.alpha - surface_.lowest_acceleration();
+    const Advancement above{std::fabs(mirrored_.k) - mirrored_.alpha + surface_.highest_acceleration(),
+                            std::fabs(mirrored_.k) + mirrored_.alpha - surface_.lowest_acceleration()};
     double t = std::max(0.0, clear_until_ - s_);
     while (t < h) {
         const SurfaceAngle c = surface_at(s_ + t);
@@ -84,14 +85,11 @@ std::optional<double> RigidMotion::first_touch(double h) {
         const double v = series_.rate(t) - surface_.rate(c);
         if ((touched_ && t == 0) || (g < 0 && v > 0 && g > -kOpeningDepth)) g = std::max(g, 0.0);
         if (g < 0 || (g == 0 && !(v > 0))) return t;
-        if (v < 0 && (least <= 0 || v * v > 2 * least * g)) {
-            const double latest = least > 0 ? t - (v + std::sqrt(v * v - 2 * least * g)) / least : t - g / v;
-            const double at = falling(t, latest, h);
+        if (const auto certain = above.certain_time(g, v)) {
+            const double at = falling(t, t + *certain, h);
             return at < h ? std::optional(at) : std::nullopt;
         }
-        if (most <= 0 && v >= 0) return {};
-        const double safe = most > 0 ? (v + std::sqrt(v * v + 2 * most * g)) / most : -g / v;
-        t += std::max(safe, kShortestAdvance);
+        t += std::max(above.clear_time(g, v), kShortestAdvance);
     }
     return {};
 }

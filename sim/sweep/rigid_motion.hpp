@@ -17,7 +17,7 @@ namespace beamcam::sim {
 class RigidMotion {
   public:
     // Conditions: rigid beam, frictionless impulsive contact, a free hub or one with a constant torque, a contact that
-    // stays between the ends of the beam, method `auto`, samples at impacts or cam angles.
+    // stays between the ends of the beam and off the axis, method `auto`, samples at impacts or cam angles.
     static bool applies(const Problem& problem, const Sampling& sampling);
 
     // `start`: initial state; null: that of the problem.

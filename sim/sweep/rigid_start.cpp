@@ -16,9 +16,9 @@ bool RigidMotion::applies(const Problem& p, const Sampling& sampling) {
                  margin = kInsideBeam * p.beam.length;
     const double nearest = away - p.cam->eccentricity, farthest = away + p.cam->eccentricity;
     if (!(nearest > reach)) return false;
-    const double shortest = std::sqrt(nearest * nearest - reach * reach) - p.hub.radius,
-                 longest = std::sqrt(farthest * farthest - reach * reach) - p.hub.radius;
-    return shortest > margin && longest < p.beam.length - margin;
+    const double shortest = std::sqrt(nearest * nearest - reach * reach),
+                 longest = std::sqrt(farthest * farthest - reach * reach);
+    return shortest > margin && shortest - p.hub.radius > margin && longest - p.hub.radius < p.beam.length - margin;
 }
 
 RigidMotion::Mirrored RigidMotion::mirrored(const Problem& p, double theta) {

@@ -55,6 +55,30 @@ TEST(HardTouch, NoMethodStepsThroughTheDisc) {
         }
 }
 
+// Without weight, torque and motion nothing accelerates: the touch is decided by the gap alone, which is open, closed
+// or either by rounding.
+TEST(HardTouch, ABeamAtRestNextToACamAtRestStaysThere) {
+    for (const ContactModel model : {ContactModel::compliant, ContactModel::restitution})
+        for (const double ulps : {-1.0, 0.0, 1.0}) {
+            Problem problem = strike();
+            problem.contact.model = model;
+            const double touching = std::asin(0.01 / 0.5);
+            problem.initial.angle = touching + ulps * 4e-18;
+            problem.initial.angular_velocity = 0;
+            const Result result = run(problem, 1);
+            EXPECT_LT(result.counters.gap_evaluations, 1000) << name(model) << " " << ulps;
+        }
+}
+
+TEST(HardTouch, ABeamThatAnImpactStopsWithoutWeightStaysOnTheCam) {
+    Problem problem = strike();
+    problem.contact.model = ContactModel::restitution;
+    problem.contact.restitution = 0;
+    const Result result = run(problem, 1);
+    ASSERT_EQ(result.impacts.size(), 1u);
+    EXPECT_LT(result.counters.gap_evaluations, 1000);
+}
+
 TEST(HardTouch, ALedgerThatDoesNotCloseIsTold) {
     Problem problem;
     problem.solver.method = Method::cvode_bdf;  // its local errors add up to some hundred times rtol here
