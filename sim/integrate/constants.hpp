@@ -41,10 +41,11 @@ inline constexpr double kFastRadians = 14, kMostDampingOfFast = 0.1;
 // In sustained contact, vibration that turns by more radians in a step is projected; growth by it begins at 14. (S52c)
 inline constexpr double kAliasedRadians = 7;
 // Bounds within a step.
-inline constexpr double kNodeOvershoot = 1.5;  // largest value of a polynomial over that at the nodes
+inline constexpr double kNodeOvershoot = 1.5;  // largest value of a smooth polynomial over that at the nodes; any: 4.5
 // Of the Legendre polynomial P₈ on a step: its largest integral from the start, and the integral of that over half of
 // the step; and the mean distance of the nodes, all of the step.
 inline constexpr double kLegendreIntegral = 0.01604, kLegendreTurning = 0.00453, kNodeGap = 1.0 / 9;
+inline constexpr double kMissedTurning = 1e-6;    // of Θ̇, which its nodal polynomial may miss at any tolerance
 inline constexpr double kFarthestFromNode = 0.1;  // of the step: no instant is farther from the nearest node
 
 // ---- iterations ----
@@ -57,6 +58,11 @@ inline constexpr double kFlightRounding = 1e-12, kContactRounding = 1e-11;
 inline constexpr double kNegligibleChange = 1e-6;  // of the tolerance: the rounding of a motion that has hardly begun
 inline constexpr double kDepthRounding = 4e-16;    // of the beam's length: two roundings of a gap
 inline constexpr double kTravelRounding = 4e-16;   // of the way of the disc's centre: of the time and of the angle
+// Largest of the last two Legendre coefficients, times the length of the step, of the rate of a polynomial that is zero
+// at the start and up to 1 at the nodes: rounding of a gap's rate becomes such a constraint force.
+inline constexpr double kRoughestRate = 136;
+// [–] of the period of the fastest mode over 2π: where collocation of a constraint needs shorter steps, rounding rules.
+inline constexpr double kShortestHeld = 1e-5;
 // Where the damping of a contact decays by more than kFastDecay within a step, an error of a rate becomes a force that
 // no polynomial follows: the iteration may leave only a share of kContactShare. So it is from kSteadyDecay on where the
 // force varies by less than kSteadyForce: in a lasting contact it is the only error. Contractions vary from sweep to
@@ -97,13 +103,14 @@ inline constexpr double kIgnoredWeight = 1e-30;  // in SUNDIALS, of components w
 inline constexpr double kFarTime = 1e3;          // [s] a target beyond any step, in the direction of time
 
 // ---- the fallback to another method ----
-// Above this damping ratio explicit steps are limited by stability; BDF is used. Its errors add up, so it gets a share
-// of the tolerance.
-inline constexpr double kStiffDamping = 20, kShareOfBdf = 0.03;
+// Above these damping ratios, in flight and in contact, explicit steps are limited by stability; BDF is used. In flight
+// the other method takes only some steps, which BDF begins at a low order. Its errors add up, so it gets a share of the
+// tolerance.
+inline constexpr double kStiffFlight = 20, kStiffContact = 1, kShareOfBdf = 0.03;
 // [rad] of the fastest vibration in a step of modes that are not the coordinates: where their coupling asks for shorter
 // ones, in flight by its error or in contact as nothing settles, Runge and Kutta's method is as good.
 inline constexpr double kLeastTurns = 0.5;
-inline constexpr long kFirstRetry = 32;  // steps of the other method, before the next try: twice as many each time
+inline constexpr long kFirstRetry = 32;  // steps of the other method before the next try, twice as many each time
 // [m/s] Friction that turns over within less is as stiff once it nearly sticks. A touch that has taken so many steps,
 // shorter than this share of the way to its deepest point, is handed over.
 inline constexpr double kSharpSlip = 1e-4;

@@ -140,11 +140,8 @@ bool ContactStep::improve(const StepTable& table, int corrections) {
         by_depth[k] = at.by_depth;
         by_rate[k] = at.by_rate;
     }
-    // After many turns the disc's place is uncertain by its travel within the rounding of the time.
-    const Cam& cam = *step_.system.problem().cam;
-    const double travel = std::fabs(cam.speed * cam.eccentricity * step_.time[kNodes - 1]);
-    force_rounding_ = std::max(kDepthRounding * form_.length, kTravelRounding * travel) * largest(by_depth);
-    if (held_) force_rounding_ /= kNodeGap * mobility_contact_;  // which changes the rate from node to node
+    force_rounding_ = depth_rounding() * largest(by_depth) + rate_rounding() * largest(by_rate);
+    if (held_) force_rounding_ *= kRoughestRate / mobility_contact_;
     decays_ = held_ ? 0 : largest(by_rate) * mobility_contact_;
     Lanes ahead;
     if (friction_.bristle) {
@@ -169,6 +166,20 @@ bool ContactStep::improve(const StepTable& table, int corrections) {
     else if (load.rough)
         for (int k = 0; k < kNodes; ++k) load.friction[k] = friction_.coulomb(load.force[k], contact.slip[k]);
     return true;
+}
+
+// Rounding of the gap and of its rate. After many turns the disc's place is uncertain by its travel within the rounding
+// of the time, and its velocity by what that turns.
+double ContactStep::depth_rounding() const {
+    return std::max(kDepthRounding * form_.length, kTravelRounding * disc_travel());
+}
+double ContactStep::rate_rounding() const {
+    const double speed = std::fabs(step_.system.problem().cam->speed);
+    return kDepthRounding * form_.length * largest(step_.segment.theta_dot) + kTravelRounding * disc_travel() * speed;
+}
+double ContactStep::disc_travel() const {
+    const Cam& cam = *step_.system.problem().cam;
+    return std::fabs(cam.speed * cam.eccentricity * step_.time[kNodes - 1]);
 }
 
 // What the force at a node lacks to that of its law, and the slopes of the law; in sustained contact, what ġ + κg lacks

@@ -45,6 +45,9 @@ class ContactStep {
     void place_at_start();
     void guess(const StepTable& table);
     bool improve(const StepTable& table, int corrections);
+    double depth_rounding() const;
+    double rate_rounding() const;
+    double disc_travel() const;  // since t = 0 [m]
     ForceAndSlopes normal_residual(int k) const;
     void place_contact(int corrections);
     bool linearize(const StepTable& table);
@@ -67,7 +70,7 @@ class ContactStep {
     Lanes off_at_nodes_{};  // ġ + κg that the nodes are to have
     StepTable projected_;   // of the vibrations, in sustained contact
     double gap_offset_ = 0, centred_ = -1;
-    double force_rounding_ = 0;  // of the force by rounding of the penetration [N]
+    double force_rounding_ = 0;  // of the force by rounding of the penetration and its rate [N]
     double decays_ = 0;          // decay of the contact's own damping within the step [–]
     double mobility_modes_ = 0, mobility_hub_ = 0, mobility_contact_ = 0;
     double yields_ = 0;  // of the gap rate per impulse [1/kg]

@@ -21,15 +21,19 @@ bool sharp_friction(System& system) {
            p.contact.model == ContactModel::compliant;
 }
 
-Method fallback_method(System& system) {
-    const bool vibrates = system.problem().beam.model != ModelKind::rigid;
-    const bool stiff = (vibrates && system.damping_ratio() > kStiffDamping) || sharp_friction(system);
-    return stiff ? Method::cvode_bdf : Method::rk8;
-}
+// Another method, and what it has counted so far.
+struct Fallback {
+    Method method;
+    std::unique_ptr<Integrator> integrator;
+    IntegratorCounters seen = {};
+};
 
-std::unique_ptr<Integrator> make_fallback(Method method, System& system, double rtol, double atol) {
-    return method == Method::rk8 ? make_rk8(system, rtol, atol)
-                                 : make_sundials(method, system, kShareOfBdf * rtol, kShareOfBdf * atol);
+// For a system whose damping ratio is stiff above `most`.
+Fallback make_fallback(System& system, double most, double rtol, double atol) {
+    const bool vibrates = system.problem().beam.model != ModelKind::rigid;
+    if (!((vibrates && system.damping_ratio() > most) || sharp_friction(system)))
+        return {Method::rk8, make_rk8(system, rtol, atol)};
+    return {Method::cvode_bdf, make_sundials(Method::cvode_bdf, system, kShareOfBdf * rtol, kShareOfBdf * atol)};
 }
 
 // Solves for the nodal forcing. Returns the error in units of the tolerance, kNoSolution if the iteration fails.
@@ -58,9 +62,9 @@ class Exponential final : public Integrator {
         : system_(system),
           step_(system, ModalForm::of(system), rtol, atol, counters.rhs),
           tables_(step_.form->oscillators, step_.form->groups),
-          fallback_(make_fallback(fallback_method(system), system, rtol, atol)),
+          in_flight_(make_fallback(system, kStiffFlight, rtol, atol)),
+          in_contact_(make_fallback(system, kStiffContact, rtol, atol)),
           sharp_(sharp_friction(system)) {
-        counters.fallback = fallback_method(system);
         if (!system.has_cam()) return;
         contact_.emplace(step_);
         contact_end_.emplace(step_, *contact_);
@@ -78,7 +82,7 @@ class Exponential final : public Integrator {
             ++counters.handed_over;
         }
         first_step_ = limited(std::numeric_limits<double>::infinity());
-        steps_to_retry_ = -1;
+        steps_to_retry_ = kNever;
         retry_after_ = kFirstRetry;
         if (falling_back_) return hand_over(t, y, first_step_);
         t_ = t;
@@ -86,30 +90,22 @@ class Exponential final : public Integrator {
     }
 
     const Segment& step() override {
-        if (falling_back_ && steps_to_retry_ == 0) {
-            last_->value(last_->t1, segment().end.data());
-            t_ = last_->t1;
-            falling_back_ = false;
-        }
-        if (falling_back_) {
-            if (steps_to_retry_ > 0) --steps_to_retry_;
-            fallback_->stop_at(stop_);
-            return counted(fallback_->step());
-        }
-        if (!(touching_ ? touch_step() : flight())) {
-            // This method no longer covers the motion: the fallback takes the rest of the contact, or some steps of
-            // flight.
-            if (touching_) ++counters.handed_over;
-            if (!touching_) steps_to_retry_ = std::exchange(retry_after_, 2 * retry_after_);
-            flight_level_ = kFirstFlightLevel;
+        if (!falling_back_) {
+            if (own_step()) return segment();
+            if (touching_ && retry_after_ == kFirstRetry) ++counters.handed_over;
             hand_over(t_, segment().end.data(), first_step_);
-            return counted(fallback_->step());
+            retry_later();
+        } else if (steps_to_retry_ == 0) {
+            if (retry()) return segment();
+            retry_later();
         }
-        return segment();
+        if (steps_to_retry_ > 0) --steps_to_retry_;
+        fallback_->integrator->stop_at(stop_);
+        return counted(fallback_->integrator->step());
     }
 
     const Segment& shorten(double at) override {
-        if (falling_back_) return counted(fallback_->shorten(at));
+        if (falling_back_) return counted(fallback_->integrator->shorten(at));
         ExponentialSegment& s = segment();
         BEAMCAM_ASSERT(at > s.t0);
         if (at == s.t1) return s;
@@ -124,18 +120,36 @@ class Exponential final : public Integrator {
         if (solve_up_to(at)) return s;
         ++counters.handed_over;
         hand_over(s.t0, scratch_.data(), at - s.t0);
-        return counted(fallback_->step());
+        return counted(fallback_->integrator->step());
     }
 
   private:
     ExponentialSegment& segment() { return step_.segment; }
 
+    // False when this method does not cover the motion from here.
+    bool own_step() { return touching_ ? touch_step() : flight(); }
+
+    // Another try of this method from where the other one has arrived, which otherwise goes on from there.
+    bool retry() {
+        last_->value(last_->t1, segment().end.data());
+        t_ = last_->t1;
+        falling_back_ = (touching_ && !begin_touch(t_, segment().end.data())) || !own_step();
+        return !falling_back_;
+    }
+    // The other method takes some steps before the next try. What crawls would crawl again.
+    void retry_later() {
+        flight_level_ = kFirstFlightLevel;
+        steps_to_retry_ = sharp_ && crawls_ > kMostCrawls ? kNever : std::exchange(retry_after_, 2 * retry_after_);
+    }
+
     // The fallback continues from (t, y), with a first step of at most `first`.
     void hand_over(double t, const double* y, double first) {
         falling_back_ = true;
-        fallback_->limit_first_step(first);
-        fallback_->stop_at(stop_);
-        fallback_->start(t, y);
+        fallback_ = touching_ ? &in_contact_ : &in_flight_;
+        counters.fallback = fallback_->method;
+        fallback_->integrator->limit_first_step(first);
+        fallback_->integrator->stop_at(stop_);
+        fallback_->integrator->start(t, y);
         count();
     }
 
@@ -145,12 +159,12 @@ class Exponential final : public Integrator {
         return segment;
     }
     void count() {
-        const IntegratorCounters& now = fallback_->counters;
-        counters.steps += now.steps - seen_.steps;
-        counters.fallback_steps += now.steps - seen_.steps;
-        counters.rejected += now.rejected - seen_.rejected;
-        counters.rhs += now.rhs - seen_.rhs;
-        seen_ = now;
+        const IntegratorCounters& now = fallback_->integrator->counters;
+        counters.steps += now.steps - fallback_->seen.steps;
+        counters.fallback_steps += now.steps - fallback_->seen.steps;
+        counters.rejected += now.rejected - fallback_->seen.rejected;
+        counters.rhs += now.rhs - fallback_->seen.rhs;
+        fallback_->seen = now;
     }
 
     // The longest step of flight from here: on the ladder, or shorter where the first step or the rest of the interval
@@ -233,12 +247,17 @@ class Exponential final : public Integrator {
             }
             ++counters.rejected;
             touch_level_ = lower_level(touch_level_, length, error, kTouchOrder, 3);
-            if (touch_level_ < kLowestLevel + kTouchLevels ||
-                step_length(touch_level_) < kShortestTouch * std::fabs(t_) + kShortestTouchEver) {
+            if (touch_level_ < kLowestLevel + kTouchLevels || step_length(touch_level_) < shortest_touch()) {
                 touch_level_ = kFirstTouchLevel;
                 return false;
             }
         }
+    }
+
+    // [s] Below it another method takes the contact. A constraint force changes no faster than the modes.
+    double shortest_touch() const {
+        const double rounding = kShortestTouch * std::fabs(t_) + kShortestTouchEver;
+        return system_.phase().held ? std::max(rounding, kShortestHeld / system_.highest_frequency()) : rounding;
     }
 
     void accept_touch(TouchSamples::Ending ending) {
@@ -288,8 +307,8 @@ class Exponential final : public Integrator {
     StepTables tables_;
     std::optional<ContactStep> contact_;
     std::optional<ContactStepEnd> contact_end_;
-    std::unique_ptr<Integrator> fallback_;
-    IntegratorCounters seen_;
+    Fallback in_flight_, in_contact_;
+    Fallback* fallback_ = nullptr;  // the one in use, or used last
     const bool sharp_;
     bool falling_back_ = true, touching_ = false;
     double t_ = 0;
@@ -297,7 +316,8 @@ class Exponential final : public Integrator {
     // [s] Limit of the next step of flight, and in contact of one of the fallback.
     double first_step_ = std::numeric_limits<double>::infinity();
     const Segment* last_ = nullptr;  // of the fallback
-    long steps_to_retry_ = -1;       // of the fallback, before this method is tried again; -1: never
+    static constexpr long kNever = -1;
+    long steps_to_retry_ = kNever;  // of the fallback, before this method is tried again
     long retry_after_ = 0;
     long crawls_ = 0;   // steps of this touch that were shorter than `crawl_`
     double crawl_ = 0;  // [s]

@@ -5,6 +5,8 @@
 
 #include "sim/integrate/constants.hpp"
 #include "sim/integrate/exponential_segment.hpp"
+#include "sim/integrate/lane_kernels.hpp"
+#include "sim/integrate/step_errors.hpp"
 
 namespace beamcam::sim {
 // Bounds of a function of the modes, of its rate and of its second derivative.
@@ -19,17 +21,12 @@ struct Bounded {
 
 // Sums over all modes: bounds of displacement and speed of the beam's points, its tangent and its hub by vibration.
 struct VibrationBounds {
-    double deflection_speed = 0, deflection_acceleration = 0, slope_speed = 0;  // by the shapes' crude bounds
-    Bounded deflection, stretch;                                                // stretch: √∫v′²
+    Bounded deflection, stretch;  // stretch: √∫v′²
     double turn = 0, turn_rate = 0, hub_second = 0;
     double slope = 0, slope_rate = 0, curvature = 0;
     double inertia = 0, inertia_rate = 0;  // √|qᵀBq|, √|q̇ᵀBq̇|
 
     void add(const ModalForm& form, std::size_t i, const Bounded& mode) {
-        const double shape = 3 + 3 * std::fabs(form.radius) / form.length;
-        deflection_speed += shape * mode.rate;
-        deflection_acceleration += shape * mode.second;
-        slope_speed += shape * form.beta[i] * mode.rate;
         turn += std::fabs(form.h[i]) * mode.value;
         turn_rate += std::fabs(form.h[i]) * mode.rate;
         deflection.add(form.shape[i], mode);
@@ -44,24 +41,31 @@ struct VibrationBounds {
     }
 };
 
-// Bounds of |f|, √(q² + (q̇/ω)²) and |q̇| of the modes of a group. Between two nodes the second, the amplitude of the
-// vibration, changes by at most ∫|f|/ω, and by twice the static deflection |f|/ω². Polynomials between nodes stay near
-// their nodal values (Lebesgue's constant of Gauss nodes is 3: the spread is added on either side).        (S53)
+// Bounds of |f|, √(q² + (q̇/ω)²) and |q̇| of the modes of a group. |P_j| <= 1 and |P_j′| <= j(j + 1)/h on the step, so
+// that sums over the Legendre coefficients of the forcing bound it and its rate. Without forcing the amplitude of the
+// vibration is constant, or falls by damping. By forcing it changes in a time τ by at most τ|f|/ω, and by at most twice
+// the static deflection |f|/ω² and what that changes meanwhile.                                               (S53)
 void ExponentialSegment::find_largest(std::size_t g) const {
     transpose();
     const OscillatorLanes& group = form_->groups[g];
-    Lanes force{}, squares{};
+    Lanes squares{}, legendre[kNodes], force{}, force_rate{};
     for (std::size_t k = 0; k < kPoints; ++k) {
         const Lanes &x = lanes_q_[g * kPoints + k], &dx = lanes_v_[g * kPoints + k];
         squares = larger(squares, x * x + dx * dx / group.square);
-        if (k > 0) force = larger(force, magnitude(lanes_f_[g * kNodes + k - 1]));
+    }
+    lane_kernels().combine(Collocation::get().legendre.data(), lanes_f_.data() + g * kNodes, legendre);
+    for (int j = 0; j < kNodes; ++j) {
+        const Lanes c = magnitude(legendre[j]);
+        force += c;
+        force_rate += c * (j * (j + 1) / h);
     }
     for (std::size_t i = g * kNodes; i < std::min(n_, (g + 1) * kNodes); ++i) {
         const int lane = static_cast<int>(i % kNodes);
-        const double w = group.omega[lane];
+        const double w = group.omega[lane], time = (group.gamma[lane] > 0 ? 2 : 1) * kFarthestFromNode * h;
         Largest& of = largest_[i];
-        of.force = kNodeOvershoot * force[lane];
-        of.amplitude = std::sqrt(squares[lane]) + of.force / w * std::min(kFarthestFromNode * h, 2 / w);
+        of.force = force[lane];
+        of.amplitude = std::sqrt(squares[lane]) +
+                       std::min(time * of.force / w, 2 * (of.force + time * force_rate[lane]) / (w * w));
         of.rate = largest_rate(i, of.amplitude, of.force);
         if (left_out.contains(i)) let_lag(i, of);
     }
@@ -97,19 +101,13 @@ const MotionBounds* ExponentialSegment::bounds() const {
         const Oscillator& o = form_->oscillators[i];
         sum.add(*form_, i, {amplitude, speed, o.omega * o.omega * amplitude + force + 2 * o.gamma * speed});
     }
-    double low = theta_dot[0], high = theta_dot[0];
-    for (int k = 1; k < kNodes; ++k) {
-        low = std::min(low, theta_dot[k]);
-        high = std::max(high, theta_dot[k]);
-    }
-    const double spread = (high - low) + 1e-6 * std::max(std::fabs(low), std::fabs(high));
-    low -= spread;
-    high += spread;
+    const LegendreRange turning = legendre_range(theta_dot);
+    const double spread = turning.spread + (std::fabs(turning.mean) + turning.spread) * missed_turning(sum);
+    const double low = turning.mean - spread, high = turning.mean + spread;
     b.ripple = sum.turn;
     b.ripple_rate = sum.turn_rate;
     b.theta_dot = std::max(std::fabs(low), std::fabs(high));
-    b.theta_ddot = form_->prescribed ? 4 * (high - low) / h
-                                     : std::max(2 * largest(p_dot) / form_->J, hub_acceleration(sum, b.theta_dot));
+    b.theta_ddot = form_->prescribed ? turning.slope / h : hub_acceleration(sum, b.theta_dot);
     bound_points(sum, b);
     b.rate_low = low - sum.turn_rate;
     b.rate_high = high + sum.turn_rate;
@@ -119,11 +117,20 @@ const MotionBounds* ExponentialSegment::bounds() const {
     return &b;
 }
 
+// Largest relative distance of Θ̇ = p/(J + qᵀBq) from the polynomial through its nodal values, p being one: by all that
+// bending changes, or by rounding and the tolerance. Where bending may make the inertia zero, Θ̈ has no bound and this
+// is not used.
+double ExponentialSegment::missed_turning(const VibrationBounds& sum) const {
+    const double bent = form_->prescribed ? 0 : sum.inertia * sum.inertia, least = form_->J - bent;
+    return kMissedTurning + (least > 0 ? 2 * bent / least : 0);
+}
+
 // Θ̈ = [ṗ − 2Θ̇qᵀBq̇]/(J + qᵀBq); no bound where bending may make the inertia zero.
 double ExponentialSegment::hub_acceleration(const VibrationBounds& sum, double fastest) const {
     const double least = form_->J - sum.inertia * sum.inertia;
     if (!(least > 0)) return std::numeric_limits<double>::infinity();
-    return (kNodeOvershoot * largest(p_dot) + 2 * fastest * sum.inertia * sum.inertia_rate) / least;
+    const LegendreRange load = legendre_range(p_dot);
+    return (std::fabs(load.mean) + load.spread + 2 * fastest * sum.inertia * sum.inertia_rate) / least;
 }
 
 // The beam shortens, u = −½∫v′² − ½aα², and its points are up to √(reach² + v²) away from the hinge.
@@ -139,11 +146,10 @@ void ExponentialSegment::bound_points(const VibrationBounds& sum, MotionBounds& 
                        ? sum.deflection.value + 0.5 * (sum.stretch.value * sum.stretch.value + a * sum.turn * sum.turn)
                        : std::numeric_limits<double>::infinity();
     b.curvature = sum.curvature * (1 + sum.slope);
-    b.deflection_speed = std::max(sum.deflection_speed, sum.deflection.rate + axial + b.theta_dot * beyond);
+    b.deflection_speed = sum.deflection.rate + axial + b.theta_dot * beyond;
     b.deflection_acceleration =
-        std::max(sum.deflection_acceleration,
-                 sum.deflection.second + axial_acceleration + (b.theta_ddot + b.theta_dot * b.theta_dot) * beyond);
-    b.slope_speed = std::max(sum.slope_speed, sum.slope_rate * (1 + sum.slope));
+        sum.deflection.second + axial_acceleration + (b.theta_ddot + b.theta_dot * b.theta_dot) * beyond;
+    b.slope_speed = sum.slope_rate * (1 + sum.slope);
 }
 
 }  // namespace beamcam::sim

@@ -101,6 +101,7 @@ class ExponentialSegment final : public StoredSegment {
     void find_largest(std::size_t group) const;
     void let_lag(std::size_t mode, Largest& of) const;
     double largest_rate(std::size_t mode, double amplitude, double force) const;
+    double missed_turning(const VibrationBounds& sum) const;
     double hub_acceleration(const VibrationBounds& sum, double fastest) const;
     void bound_points(const VibrationBounds& sum, MotionBounds& b) const;
     struct ForcingBounds;

@@ -13,6 +13,17 @@ LegendreDecay legendre_decay(const Lanes& nodal, double rounding) {
     return {last, last == 0 ? 0 : std::min(1.0, last / before)};
 }
 
+LegendreRange legendre_range(const Lanes& nodal) {
+    const auto& legendre = Collocation::get().legendre;
+    LegendreRange range{sum(legendre[0] * nodal), 0, 0};
+    for (int j = 1; j < kNodes; ++j) {
+        const double size = std::fabs(sum(legendre[static_cast<std::size_t>(j)] * nodal));
+        range.spread += size;
+        range.slope += j * (j + 1) * size;
+    }
+    return range;
+}
+
 double interpolation_error(const Lanes& nodal) {
     const auto [last, ratio] = legendre_decay(nodal);
     return last * ratio * std::max(ratio, kLeastDecay);

@@ -12,6 +12,12 @@ struct LegendreDecay {
     double last, ratio;
 };
 LegendreDecay legendre_decay(const Lanes& nodal, double rounding = 0);
+// The polynomial through nodal values lies within mean ± spread, and its derivative, times the length of the step,
+// within ± slope: sums over its Legendre coefficients, |P_j| <= 1 and |P_j′| <= j(j + 1)/h.
+struct LegendreRange {
+    double mean, spread, slope;
+};
+LegendreRange legendre_range(const Lanes& nodal);
 // Interpolation error of a forcing with these nodal values. Decaying coefficients show a resolved forcing, whose error
 // the integration smooths as well; coefficients that do not decay are aliased vibration, and count in full.
 double interpolation_error(const Lanes& nodal);

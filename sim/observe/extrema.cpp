@@ -87,7 +87,7 @@ ModalChannels::Range ExtremaFinder::sampled_range(const SegmentInterval& s, Chan
     return step_.range(s, channel, samples);
 }
 
-// The dense output of a polynomial errs most in the middle of the step; twice that covers the rest.
+// The dense output of a polynomial usually errs most in the middle of the step. Twice that is an estimate, no bound.
 ModalChannels::Range ExtremaFinder::residual_range(const SegmentInterval& s, std::size_t c) {
     const auto [low, high] = std::minmax(first_[c], last_[c]);
     const double middle = step_.value(s, channels_[c], 0.5 * (s.from + s.to));

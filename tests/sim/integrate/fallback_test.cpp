@@ -66,6 +66,33 @@ TEST(Fallback, StepsAreCountedByTheMethodThatTookThem) {
     EXPECT_EQ(r.steps_by_method, (StepsByMethod{{Method::cvode_adams, r.counters.steps}}));
 }
 
+// Shapes of a strongly damped beam that bends far couple so much that the sweeps do not settle. The other method is
+// implicit, and takes only parts of the contact.
+TEST(Fallback, ADampedBeamThatBendsFarTakesNoStepsForStability) {
+    SKIP_UNDER_SANITIZERS();
+    Problem p;
+    p.hub = {0, 0.5, SpinUp{-1.78, 0.31}};
+    p.beam.model = ModelKind::second_order;
+    p.beam.modes = 9;
+    p.beam.basis = Basis::cantilever;
+    p.beam.youngs_modulus = 8.86e10;
+    p.beam.damping_ratio = {1.72};
+    p.cam = Cam{{0.717, -0.08}, 0.119, 0.0276, 35.2, 1.73, {}, 0.3};
+    p.contact.model = ContactModel::restitution;
+    p.contact.restitution = 0.34;
+    p.contact.friction = StickSlipFriction{.coefficient = 0.32};
+    p.initial.angle = 0.538;
+    const Result r = run(p, 0.7);
+    EXPECT_LT(r.counters.rhs_evaluations, 30000);
+    ASSERT_EQ(r.steps_by_method.size(), 2u);
+    EXPECT_EQ(r.steps_by_method[1].first, Method::cvode_bdf);
+    p.solver = {Method::cvode_bdf, 1e-9, 1e-12, p.solver.max_steps};
+    const Result other = run(p, 0.7);
+    ASSERT_EQ(r.impacts.size(), other.impacts.size());
+    for (std::size_t i = 0; i < r.impacts.size(); ++i)
+        EXPECT_NEAR(r.impacts[i].t_start, other.impacts[i].t_start, 1e-8) << i;
+}
+
 // A step carries the tip past a small cam by more than 10⁵ halves of its radius.
 TEST(Fallback, ACappedSearchForATouchIsCountedAndReported) {
     Problem p;

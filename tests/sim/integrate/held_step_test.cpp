@@ -105,6 +105,28 @@ TEST(HeldMotion, TakesNoShorterStepsUnderStrongFriction) {
 }
 
 // No vibration grows from rounding until it limits the steps.
+// After thousands of turns the instants of the nodes, and with them the velocity of the cam, are rounded by more than
+// the motion itself. Rounding is no error that shorter steps would reduce.
+TEST(HeldMotion, DoesNotStallAfterThousandsOfTurns) {
+    SKIP_UNDER_SANITIZERS();
+    for (const double speed : {60.0, 65.0})
+        for (const double restitution : {0.4, 0.6}) {
+            Problem p;
+            p.beam.modes = 1;
+            p.beam.damping_ratio = {0.02};
+            p.hub = {0, 0.05, ConstantTorque{-1.5}};
+            p.cam->speed = speed;
+            p.cam->eccentricity = 0.002;
+            p.cam->phase = 0.5;
+            p.contact.model = ContactModel::restitution;
+            p.contact.restitution = restitution;
+            p.initial.angle = 0.46;
+            const Result r = run(p, 400);
+            EXPECT_LT(r.counters.steps, 100000) << speed << " " << restitution;
+            EXPECT_GT(r.impacts.size(), 1000u);
+        }
+}
+
 TEST(HeldMotion, TakesTheLongestStepsAtRest) {
     for (const Case& c : {Case{"Plain", plain}, Case{"SecondOrder", second_order}, Case{"Exact", exact}}) {
         Problem p = following(c);
