@@ -111,9 +111,8 @@ inline constexpr double kStiffFlight = 20, kStiffContact = 1, kShareOfBdf = 0.03
 // ones, in flight by its error or in contact as nothing settles, Runge and Kutta's method is as good.
 inline constexpr double kLeastTurns = 0.5;
 inline constexpr long kFirstRetry = 32;  // steps of the other method before the next try, twice as many each time
-// [m/s] Friction that turns over within less is as stiff once it nearly sticks. A touch that has taken so many steps,
-// shorter than this share of the way to its deepest point, is handed over.
-inline constexpr double kSharpSlip = 1e-4;
+// Friction that turns over within a small slip is stiff where the beam nearly sticks. A contact that has taken so many
+// steps, shorter than this share of the way to its deepest point or of the fastest mode's 1/ω, is handed over to BDF.
 inline constexpr long kMostCrawls = 2000;
 inline constexpr double kCrawl = 1e-3;
 

@@ -14,27 +14,12 @@
 namespace beamcam::sim {
 namespace {
 
-bool sharp_friction(System& system) {
-    const Problem& p = system.problem();
-    const auto* friction = std::get_if<CoulombFriction>(&p.contact.friction);
-    return system.has_cam() && friction && friction->coefficient > 0 && friction->slip_speed < kSharpSlip &&
-           p.contact.model == ContactModel::compliant;
-}
-
-// Another method, and what it has counted so far.
+// Another method, made when it is first needed, and what it has counted so far.
 struct Fallback {
     Method method;
-    std::unique_ptr<Integrator> integrator;
+    std::unique_ptr<Integrator> integrator = nullptr;
     IntegratorCounters seen = {};
 };
-
-// For a system whose damping ratio is stiff above `most`.
-Fallback make_fallback(System& system, double most, double rtol, double atol) {
-    const bool vibrates = system.problem().beam.model != ModelKind::rigid;
-    if (!((vibrates && system.damping_ratio() > most) || sharp_friction(system)))
-        return {Method::rk8, make_rk8(system, rtol, atol)};
-    return {Method::cvode_bdf, make_sundials(Method::cvode_bdf, system, kShareOfBdf * rtol, kShareOfBdf * atol)};
-}
 
 // Solves for the nodal forcing. Returns the error in units of the tolerance, kNoSolution if the iteration fails.
 double solve_flight(NodalStep& step, const StepTable& table) {
@@ -62,9 +47,10 @@ class Exponential final : public Integrator {
         : system_(system),
           step_(system, ModalForm::of(system), rtol, atol, counters.rhs),
           tables_(step_.form->oscillators, step_.form->groups),
-          in_flight_(make_fallback(system, kStiffFlight, rtol, atol)),
-          in_contact_(make_fallback(system, kStiffContact, rtol, atol)),
-          sharp_(sharp_friction(system)) {
+          rtol_(rtol),
+          atol_(atol),
+          damping_(step_.n > 0 ? system.damping_ratio() : 0),
+          creeps_(!system.friction().none() && !system.has_bristle()) {
         if (!system.has_cam()) return;
         contact_.emplace(step_);
         contact_end_.emplace(step_, *contact_);
@@ -139,13 +125,24 @@ class Exponential final : public Integrator {
     // The other method takes some steps before the next try. What crawls would crawl again.
     void retry_later() {
         flight_level_ = kFirstFlightLevel;
-        steps_to_retry_ = sharp_ && crawls_ > kMostCrawls ? kNever : std::exchange(retry_after_, 2 * retry_after_);
+        steps_to_retry_ = crawls() ? kNever : std::exchange(retry_after_, 2 * retry_after_);
+    }
+    bool crawls() const { return touching_ && crawls_ > kMostCrawls; }
+
+    // The explicit or the implicit method.
+    Fallback& other_method() {
+        const bool stiff = crawls() || damping_ > (touching_ ? kStiffContact : kStiffFlight);
+        Fallback& other = stiff ? implicit_ : explicit_;
+        if (!other.integrator)
+            other.integrator = stiff ? make_sundials(other.method, system_, kShareOfBdf * rtol_, kShareOfBdf * atol_)
+                                     : make_rk8(system_, rtol_, atol_);
+        return other;
     }
 
     // The fallback continues from (t, y), with a first step of at most `first`.
     void hand_over(double t, const double* y, double first) {
         falling_back_ = true;
-        fallback_ = touching_ ? &in_contact_ : &in_flight_;
+        fallback_ = &other_method();
         counters.fallback = fallback_->method;
         fallback_->integrator->limit_first_step(first);
         fallback_->integrator->stop_at(stop_);
@@ -216,13 +213,15 @@ class Exponential final : public Integrator {
         if (c.at_end) return false;
         contact_->begin_touch(c);
         crawls_ = 0;
-        if (sharp_) crawl_ = kCrawl * system_.touch_time(t, y, c, contact_->approach);
+        if (creeps_)
+            crawl_ = kCrawl * (system_.phase().held ? 1 / system_.highest_frequency()
+                                                    : system_.touch_time(t, y, c, contact_->approach));
         return true;
     }
 
     // One step; false when this method cannot take the contact (the state is then that of the start).
     bool touch_step() {
-        if (sharp_ && crawls_ > kMostCrawls) return false;
+        if (crawls()) return false;
         step_.begin(t_);
         contact_->begin();
         for (bool rejected = false;; rejected = true) {
@@ -307,9 +306,11 @@ class Exponential final : public Integrator {
     StepTables tables_;
     std::optional<ContactStep> contact_;
     std::optional<ContactStepEnd> contact_end_;
-    Fallback in_flight_, in_contact_;
+    const double rtol_, atol_;
+    const double damping_;  // the largest damping ratio
+    const bool creeps_;     // with friction that turns over within a small slip
+    Fallback explicit_{Method::rk8}, implicit_{Method::cvode_bdf};
     Fallback* fallback_ = nullptr;  // the one in use, or used last
-    const bool sharp_;
     bool falling_back_ = true, touching_ = false;
     double t_ = 0;
     int flight_level_ = kFirstFlightLevel, touch_level_ = kFirstTouchLevel;

@@ -33,15 +33,16 @@ inline constexpr double kTouchGap = 1e-16;              // of the cam's radius: 
 inline constexpr int kMaxOpeningHalvings = 24;  // of the first subinterval, in search of an open gap after a release
 inline constexpr double kFootStiffness = 0.5;  // least r″·D + r′·r′ for which the gap's acceleration is bounded
 inline constexpr double kRestSpeed = 1e-12;    // [m/s]: smaller speeds are rounding
-inline constexpr double kGapErrors = 10;       // step tolerances in the gap: several coordinates contribute
-inline constexpr double kLowestBounce = 1e-13;     // of the beam's length: a hundred times the gap's rounding error
-inline constexpr double kForceDifference = 1e-4;   // of the step: finite difference for Ṅ, where the force is smooth
-inline constexpr double kGuardDifference = 1e-2;   // of the step: finite difference for the rate of a guard
-inline constexpr double kGuardRounding = 1e-9;     // of a guard's largest value: shallower minima are rounding
-inline constexpr double kSameInstant = 1e-9;       // of the subinterval: events at a smaller distance are one
-inline constexpr double kVanishingForce = 1e-9;    // of weight and largest force: smaller tensile forces are rounding
-inline constexpr double kPredictedShift = 1e-3;    // of the step: largest correction of an event's time
-inline constexpr double kInstantRounding = 1e-14;  // of the time: closer instants are one
+inline constexpr double kRestAcceleration = 1e-20;  // [m/s²]: smaller ones are rounding, and move nothing in any run
+inline constexpr double kGapErrors = 10;            // step tolerances in the gap: several coordinates contribute
+inline constexpr double kLowestBounce = 1e-13;      // of the beam's length: a hundred times the gap's rounding error
+inline constexpr double kForceDifference = 1e-4;    // of the step: finite difference for Ṅ, where the force is smooth
+inline constexpr double kGuardDifference = 1e-2;    // of the step: finite difference for the rate of a guard
+inline constexpr double kGuardRounding = 1e-9;      // of a guard's largest value: shallower minima are rounding
+inline constexpr double kSameInstant = 1e-9;        // of the subinterval: events at a smaller distance are one
+inline constexpr double kVanishingForce = 1e-9;     // of weight and largest force: smaller tensile forces are rounding
+inline constexpr double kPredictedShift = 1e-3;     // of the step: largest correction of an event's time
+inline constexpr double kInstantRounding = 1e-14;   // of the time: closer instants are one
 
 // ---- transitions ----
 // Stick and slip may both be impossible within rounding, and a rebound may be smaller than the error of a step. After

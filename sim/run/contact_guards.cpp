@@ -65,8 +65,9 @@ Event ContactGuards::first_lift(const Segment& segment) {
     std::array<double, kMaxPieces + 1> f;
     for (int i = 0; i <= count; ++i) f[static_cast<std::size_t>(i)] = force(time(i));
     // A tensile force below this limit is rounding.
-    const double limit = -kVanishingForce * (std::fabs(probe_.system.problem().gravity) * probe_.system.model().mass() +
-                                             *std::max_element(f.begin(), f.begin() + count + 1));
+    const double mass = probe_.system.model().mass(), largest = *std::max_element(f.begin(), f.begin() + count + 1);
+    const double weight = std::fabs(probe_.system.problem().gravity) * mass;
+    const double limit = -kVanishingForce * (weight + largest) - kRestAcceleration * mass;
     for (int i = 0; i <= count; ++i) f[static_cast<std::size_t>(i)] -= limit;
     const auto lifted = [&](double t) { return force(t) - limit; };
     if (f[0] < 0) return {EventKind::lift, segment.t0};

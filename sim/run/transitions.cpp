@@ -147,7 +147,7 @@ void Transitions::impact() {
     if (slow) impact = resolve(0);
     if (approach > 0) system_.apply_impact(state_.t, state_.y.data(), c, impact);
     const double pull_after = pull_on_cam();
-    if (slow && pull_after > 0) {
+    if (slow && pull_after > -kRestAcceleration) {
         hold();
         ++state_.statistics.chatters;
         return;

@@ -142,7 +142,7 @@ TEST(Failure, FrictionThatLocksTheContactIsNamedAtOnce) {
                 SCOPED_TRACE(::testing::Message() << name(model) << " " << coefficient << " " << bristle);
                 p.contact.model = model;
                 if (bristle)
-                    p.contact.friction = StickSlipFriction{.coefficient = coefficient};
+                    p.contact.friction = StickSlipFriction{coefficient, {}, {}, {}};
                 else
                     p.contact.friction = CoulombFriction{coefficient};
                 const std::string message = message_of(p, 1.5);

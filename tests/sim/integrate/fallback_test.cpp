@@ -80,7 +80,7 @@ TEST(Fallback, ADampedBeamThatBendsFarTakesNoStepsForStability) {
     p.cam = Cam{{0.717, -0.08}, 0.119, 0.0276, 35.2, 1.73, {}, 0.3};
     p.contact.model = ContactModel::restitution;
     p.contact.restitution = 0.34;
-    p.contact.friction = StickSlipFriction{.coefficient = 0.32};
+    p.contact.friction = StickSlipFriction{0.32, {}, {}, {}};
     p.initial.angle = 0.538;
     const Result r = run(p, 0.7);
     EXPECT_LT(r.counters.rhs_evaluations, 30000);
