@@ -69,7 +69,7 @@ std::vector<Line> lines_of(const Plan& plan, const Scene& scene) {
     };
     for (const Pictures& p : plan.pictures) add_output(p.output, p.has_frames() ? counted(p.draw.size(), "frame") : "");
     for (const FigureFile& f : plan.figures) add_output(f.output, f.figure);
-    for (const DataFile& d : plan.data) add_output(d.output, d.content);
+    for (const DataFile& d : plan.data) lines.push_back({type_of(scene.outputs[d.output]), d.file, d.content});
     for (const std::size_t output : plan.waiting)
         add_output(output, fmt::format("at events, which a run until {:g} s at most finds",
                                        events_until(scene.outputs[output], scene)));
@@ -87,9 +87,11 @@ std::string to_text(const Plan& plan, const Scene& scene) {
 }
 
 std::string to_json(const Plan& plan, const Scene& scene) {
-    return to_text(array_node(lines_of(plan, scene), [](const Line& line) {
+    constexpr std::size_t kWidth = 120;
+    const Node lines = array_node(lines_of(plan, scene), [](const Line& line) {
         return object_node({{"what", line.what}, {"name", line.name}, {"content", line.content}});
-    }));
+    });
+    return folded_text(lines, kWidth, 0) + "\n";
 }
 
 }  // namespace beamcam::scenes
