@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -31,9 +30,6 @@ struct TableRequest {
 struct PoseRequest {
     std::vector<double> times;  // [s]
     int stations = 97;          // points along the centre line, >= 2
-    // Receives each pose with the row of its time as soon as it is computed; Result::poses then stays empty. A row may
-    // come twice, and not all come when the run fails.
-    std::function<void(std::size_t row, const Pose& pose)> take{};
     // The most additional poses in contact, between the first and the last of the times: at each touch and within the
     // steps after it. Their rows follow those of the times.
     std::size_t contacts = 0;

@@ -66,7 +66,7 @@ SampleRecorder::SampleRecorder(const Request& request, ChannelEvaluator& evaluat
     }
     for (const PoseRequest& poses : request.poses) {
         pose_cursors_.push_back(ascending(poses.times));
-        result_.poses.emplace_back(poses.take ? 0 : poses.times.size());
+        result_.poses.emplace_back(poses.times.size());
     }
     for (const PointRequest& points : request.points) {
         point_cursors_.push_back(ascending(points.times));
@@ -260,7 +260,6 @@ void SampleRecorder::put_pose(const SegmentInterval& s, double t, std::size_t i,
         pose = shared_->poses.get(t, poses.stations, evaluate);
     else
         evaluate(pose);
-    if (poses.take) return poses.take(row, pose);
     result_.poses[i].resize(std::max(result_.poses[i].size(), row + 1));
     result_.poses[i][row] = std::move(pose);
 }
