@@ -4,6 +4,7 @@
 // context, the path of a point up to the last frame) is its State, which may save time but never changes a pixel.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
