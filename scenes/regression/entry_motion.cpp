@@ -8,7 +8,6 @@
 #include <sstream>
 
 #include "output/data/table_reader.hpp"
-#include "output/data/table_reader.hpp"
 #include "output/files/atomic_file.hpp"
 #include "scenes/regression/number_record.hpp"
 #include "scenes/regression/sweep_record.hpp"
