@@ -309,8 +309,8 @@ TEST(Regression, TheNumbersOfEveryOutputAreCompared) {
         {R"({"type": "shapes", "rate": 50, "file": "s.npz"})", "v differs"}};
     for (const auto& [output, where] : cases) {
         const Folder folder;
-        folder.write("b.json", R"({"entries": {"e": {"scene": {"time": {"end": 0.3}}, "output": )" +
-                                   std::string(output) + "}}}");
+        folder.write("b.json",
+                     R"({"entries": {"e": {"scene": {"time": {"end": 0.3}}, "output": )" + std::string(output) + "}}}");
         EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --update").code, 7) << output;
         const Finished same = shell(folder, "$BEAMCAM test b.json --strict");
         EXPECT_EQ(same.code, 0) << output << same.out << same.err;

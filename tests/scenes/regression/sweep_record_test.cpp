@@ -98,7 +98,7 @@ constexpr const char* kSweep = R"({"entries": {
   "chaos": {"scene": {"beam": {"model": "rigid"}, "cam": {"eccentricity": "2 mm"}, "initial": {"angle": 0.5},
       "contact": {"model": "restitution", "law": "newton", "restitution": 0.8},
       "sweep": {"over": [{"key": "cam.speed", "from": 62, "to": 64, "count": 5}], "sample": "impacts",
-                "transient": {"cam_turns": 100}, "keep": {"cam_turns": 100}}}, "output": {"type": "sweep"}},
+                "transient": {"cam_turns": 100}, "keep": {"cam_turns": 500}}}, "output": {"type": "sweep"}},
   "orbits": {"scene": {"beam": {"model": "rigid"}, "cam": {"eccentricity": "2 mm"}, "initial": {"angle": 0.5},
       "contact": {"model": "restitution", "law": "newton", "restitution": 0.5},
       "sweep": {"over": [{"key": "cam.speed", "from": 38, "to": 49, "count": 12}], "sample": "impacts",
