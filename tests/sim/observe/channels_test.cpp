@@ -65,7 +65,7 @@ TEST(Channels, RatesOfTheModesAreTheirDerivatives) {
         p.beam.model = kind;
         p.beam.modes = 3;
         set_tolerance(p, 1e-12);
-        const double h = 1e-5;
+        const double h = 4e-6;
         for (const double t : {0.1, 0.45})
             for (const char* mode : {"q1", "q2", "q3"}) {
                 const std::vector<double> q = series(p, mode, {t - 2 * h, t - h, t + h, t + 2 * h});

@@ -218,13 +218,13 @@ TEST(Validate, AcceptsTheEndsOfEveryRange) {
     p.solver.rtol = 1e-13;
     p.cam->eccentricity = 0;
     p.beam.damping_ratio = std::vector<double>(40, 0.01);
-    EXPECT_TRUE(validate(p).empty());
+    EXPECT_TRUE(is_plain(p));  // a restitution of 0 is not that of the default law
     p.contact.exponent = 1;
     p.contact.restitution = 0;
     p.contact.damping = DampingLaw::hunt_crossley;
     p.solver.rtol = 1e-2;
     p.contact.collision_gap = 0;
-    EXPECT_TRUE(validate(p).empty());
+    EXPECT_TRUE(is_plain(p));  // a restitution of 0 is not that of the default law
 }
 
 // 20 ms, the value of the scene, or for "auto" proportional to √(L/g).
@@ -289,6 +289,52 @@ TEST(Validate, CountsTheOffsetFaceAsPartOfTheBeam) {
     EXPECT_TRUE(validate(p).empty());
     p.contact.offset = 0.02;
     EXPECT_TRUE(has(validate(p), "initial.angle", true));
+}
+
+// lankarani-nikravesh gives impacts 0.66 for 0.05 (S31); zhang-sharf is the law that gives what is set.
+TEST(Validate, WarnsOfARestitutionFarFromThatOfTheLaw) {
+    Problem p;
+    for (const double set : {0.05, 0.3, 0.5}) {
+        p.contact.restitution = set;
+        p.contact.damping = DampingLaw::lankarani_nikravesh;
+        EXPECT_TRUE(has(validate(p), "contact.restitution", false)) << set;
+        p.contact.damping = DampingLaw::zhang_sharf;
+        EXPECT_TRUE(validate(p).empty()) << set;
+    }
+    p.contact.restitution = 0.05;
+    p.contact.damping = DampingLaw::none;  // chosen, and without a restitution
+    EXPECT_TRUE(validate(p).empty());
+    p.contact.damping = DampingLaw::hunt_crossley;
+    p.contact.model = ContactModel::restitution;
+    EXPECT_TRUE(validate(p).empty());
+}
+
+// The restitution that the law is computed to have is that of a heavy rigid beam's first impact.
+TEST(Validate, TheRestitutionOfTheLawIsThatOfAnImpact) {
+    for (const DampingLaw law : {DampingLaw::lankarani_nikravesh, DampingLaw::flores, DampingLaw::hunt_crossley}) {
+        Problem p;
+        p.beam.model = ModelKind::rigid;
+        p.cam->speed = 0;
+        p.contact.stiffness = 1e11;
+        p.contact.damping = law;
+        p.contact.restitution = 0.3;
+        const Result result = run(p, 0.45);
+        ASSERT_FALSE(result.impacts.empty());
+        EXPECT_NEAR(result.impacts[0].restitution.value(), effective_restitution(law, 0.3), 2e-3) << name(law);
+    }
+}
+
+TEST(Validate, TakesAContinuedContactThatTouchesOnly) {
+    Problem p;
+    p.initial.contact.emplace();
+    EXPECT_TRUE(has(validate(p), "initial.contact", true));  // a beam at 45 degrees does not touch
+    p.initial.contact->touching = false;
+    EXPECT_TRUE(validate(p).empty());
+    p.initial.shape = InitialShape::static_equilibrium;
+    EXPECT_TRUE(has(validate(p), "initial.contact", true));
+    p.initial.shape = InitialShape::straight;
+    p.cam.reset();
+    EXPECT_TRUE(has(validate(p), "initial.contact", true));
 }
 
 }  // namespace
