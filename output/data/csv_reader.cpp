@@ -227,7 +227,8 @@ class CsvParser {
         : file_(file), text_(plain_text(bytes, file, table_.notes)) {}
 
     ColumnTable parse() {
-        if (trimmed(text_).empty()) throw IoError("cannot read " + file_ + ": the file is empty");
+        if (text_.find_first_not_of(" \t\r\n") == text_.npos)
+            throw IoError("cannot read " + file_ + ": the file is empty");
         choose_separator();
         Rows rows(text_, separator_);
         find_names(rows);
