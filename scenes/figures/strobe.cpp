@@ -132,12 +132,21 @@ Panel strobe_panel(const std::vector<sim::Pose>& poses, const sim::Problem& prob
     return {.shapes = sketch.take()};
 }
 
+// At the instant of a touch the gap is zero but for rounding, and so is the force.
+void drop_rounding(sim::Pose& pose, const sim::Problem& problem, const sim::Result& result) {
+    constexpr double kForceRounding = 1e-9;  // of the largest force, which is at least the weight
+    double largest = problem.beam.line_density() * problem.beam.length * std::abs(problem.gravity);
+    for (const sim::Impact& impact : result.impacts) largest = std::max(largest, impact.force_peak.value_or(0));
+    if (pose.nearest && pose.nearest->force < kForceRounding * largest) pose.nearest->force = 0;
+}
+
 FigureDrawing prepare_strobe(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const bool one = how.series.to && *how.series.to == how.series.from;
     const ShownPoses shown = request_poses(scene, how, one ? 2 : kShownPoses, kPoseStations, studies);
     const auto draw = [=](const Subject& subject, const sim::Result& result) -> Figure {
         std::vector<sim::Pose> poses = result.poses[shown.poses];
         if (one) poses.resize(1);
+        for (sim::Pose& pose : poses) drop_rounding(pose, subject.problem, result);
         render::Bounds extent;
         Panel panel = strobe_panel(poses, subject.problem, extent);
         // The shapes with a margin and room for labels.

@@ -79,6 +79,13 @@ TEST(Overviews, AStillOfLinesIsAStrobeOfOneInstant) {
     for (const char* file : {"a.pdf", "a.svg"})
         ASSERT_EQ(shell(folder, fmt::format("$BEAMCAM render s.json --at impact:1 -o {}", file)).code, 0) << file;
     EXPECT_THAT(testing::slurp((folder / "a.pdf").string()), StartsWith("%PDF"));
+    // At a touch the force is zero, within the contact an arrow and a label show it.
+    const auto shows_force = [&](const char* file) {
+        return testing::slurp((folder / file).string()).find("rgb(83.529412%,36.862745%,0%)") != std::string::npos;
+    };
+    ASSERT_EQ(shell(folder, "$BEAMCAM render s.json --at 0.28 -o force.svg").code, 0);
+    EXPECT_TRUE(shows_force("force.svg"));
+    EXPECT_FALSE(shows_force("a.svg"));
     ASSERT_EQ(shell(folder, "$BEAMCAM figure s.json strobe --at impact:1 -o b.svg").code, 0);
     EXPECT_EQ(testing::slurp(folder / "a.svg"), testing::slurp(folder / "b.svg"));
     ASSERT_EQ(shell(folder, "$BEAMCAM figure s.json --at impact:1 -o c.svg").code, 0);  // needs no name
