@@ -57,7 +57,7 @@ class Marks {
     std::optional<MechanismView> at_;
 };
 
-FilmSetup film_of(Style style) {
+FilmSetup visible_film_of(Style style) {
     FilmSetup setup = test::flat_film({.duration = 0.2}, 1280, 720);
     setup.view.style = style;
     setup.layout = LayoutNode{};
@@ -68,7 +68,7 @@ long inked(const Image& a, const Image& b) { return differing_pixels(a, b, {0, 0
 
 // Films with and without an arc of θ differ by the leader of the cam's speed if the arc lies between label and arrow.
 TEST(MechanismMarks, TheLeaderOfTheSpeedDoesNotCrossTheArcOfTheAngle) {
-    Marks marks(film_of(Style::flat));
+    Marks marks(visible_film_of(Style::flat));
     const MechanismView& at = marks.at();
     const Vec2 axis = at.px(at.problem().cam->centre), hinge = at.px({0, 0});
     marks.labels.speed_way = 0.8 * std::numbers::pi;  // towards the beam
@@ -88,7 +88,7 @@ TEST(MechanismMarks, TheLeaderOfTheSpeedDoesNotCrossTheArcOfTheAngle) {
 // A label may be far from its arrow, to which no line leads then: it would cross the picture.
 TEST(MechanismMarks, LeadersHaveAGreatestLength) {
     for (const double zoom : {1.0, 3.0}) {
-        FilmSetup setup = film_of(Style::flat);
+        FilmSetup setup = visible_film_of(Style::flat);
         setup.view.shot.zoom = zoom;
         Marks marks(setup);
         const auto drawn_over = [&](double length) {
@@ -108,7 +108,7 @@ TEST(MechanismMarks, LeadersHaveAGreatestLength) {
 
 // The label of a force may be beyond the foot of its arrow, which the line must not cross then.
 TEST(MechanismMarks, TheLeaderOfAForceEndsAtTheNearerEndOfItsArrow) {
-    Marks marks(film_of(Style::flat));
+    Marks marks(visible_film_of(Style::flat));
     const ForceArrow arrow{marks.pose().cam_centre, {0, 1}, 1e9};
     const MechanismView& at = marks.at();
     const Vec2 foot = at.px(arrow.foot), tip = arrow_tip(at, nullptr, arrow);
@@ -130,7 +130,7 @@ TEST(MechanismMarks, TheLeaderOfAForceEndsAtTheNearerEndOfItsArrow) {
 
 // The box of the label has room for the widest number; the line begins at the number of this frame.
 TEST(MechanismMarks, TheLeaderOfAForceBeginsAtItsNumber) {
-    Marks marks(film_of(Style::flat));
+    Marks marks(visible_film_of(Style::flat));
     const ForceArrow arrow{marks.pose().cam_centre, {0, 1}, 4};
     const MechanismView& at = marks.at();
     const Vec2 foot = at.px(arrow.foot);
@@ -148,7 +148,7 @@ TEST(MechanismMarks, TheLeaderOfAForceBeginsAtItsNumber) {
 
 // The letters of a mechanism that is small in its picture have their usual size before a near camera.
 TEST(MechanismMarks, LettersOfTheDiscGrowWithTheZoom) {
-    Marks marks(film_of(Style::flat));
+    Marks marks(visible_film_of(Style::flat));
     const auto height = [&](double share, double zoom) {
         marks.texts.clear();
         marks.drawn([&](const MechanismScene& s) {
@@ -166,7 +166,7 @@ TEST(MechanismMarks, LettersOfTheDiscGrowWithTheZoom) {
 
 // The caption goes where its line to the anchor crosses no label.
 TEST(Captions, LinesToTheirAnchorsPassTheLabels) {
-    FilmSetup setup = film_of(Style::flat);
+    FilmSetup setup = visible_film_of(Style::flat);
     setup.callouts = {{0, 5, "a place in the air", Anchor{Anchor::Kind::place, {0.5, 0.75}}}};
     Marks marks(setup);
     marks.labels.captions.resize(1);
@@ -192,7 +192,7 @@ TEST(Captions, LinesToTheirAnchorsPassTheLabels) {
 
 // From far above, letters at another depth would be beside the line through B and C on the front of the disc.
 TEST(MechanismMarks, LettersOfTheDiscAreOnItsFront) {
-    FilmSetup setup = film_of(Style::solid);
+    FilmSetup setup = visible_film_of(Style::solid);
     setup.problem.cam->eccentricity = 0.05;
     for (sim::Pose& pose : setup.poses) pose.disc_centre = setup.problem.cam->centre + Vec2{0.05, 0};
     setup.view.shot.pitch = 1;
@@ -214,7 +214,7 @@ TEST(MechanismMarks, LettersOfTheDiscAreOnItsFront) {
 
 // A label over the beam moves to the free place beside it and stays opaque; one as large as the view is hidden.
 TEST(LabelVisibility, HidesLabelsBeforeAMovingCameraOnlyWithoutRoom) {
-    FilmSetup setup = film_of(Style::flat);
+    FilmSetup setup = visible_film_of(Style::flat);
     setup.view.shot = {.zoom = 1.5, .follow = {Anchor::Kind::place, {0.4, 0.4}}};
     Marks marks(setup);
     const auto shifted = [&](Vec2 size) {
