@@ -1,5 +1,6 @@
 // The module: sweeps and tables as NetCDF-4 files.
 #include <netcdf.h>
+#include <stdlib.h>
 
 #include "output/data/netcdf/nc_file.hpp"
 #include "output/data/netcdf_library.hpp"
@@ -22,6 +23,9 @@ void write_columns(const NcFile& file, const ColumnTable& table) {
 
 class Library final : public NetcdfLibrary {
   public:
+    // HDF5 would refuse to open the file, which AtomicFile holds locked. It reads the variable at its first use.
+    Library() { setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1); }
+
     void write(const std::filesystem::path& file, const std::filesystem::path& named,
                const SweepData& data) const override {
         write_nc_sweep(file, named, data);
