@@ -34,7 +34,11 @@ std::vector<std::size_t> in_order_of(const std::vector<double>& t) {
 
 std::vector<Pair> common_rows(const ColumnTable& a, const ColumnTable& b, double until) {
     std::vector<Pair> pairs;
-    const std::vector<double>*ta = a.find("t"), *tb = b.find("t");
+    const auto instants = [](const ColumnTable& table) {  // null also if they are texts
+        const TableColumn* t = table.column("t");
+        return t && t->problem.empty() ? &t->values : nullptr;
+    };
+    const std::vector<double>*ta = instants(a), *tb = instants(b);
     if (ta == nullptr || tb == nullptr) {
         for (std::size_t i = 0; i < std::min(a.rows(), b.rows()); ++i) pairs.push_back({i, i, double(i)});
         return pairs;
