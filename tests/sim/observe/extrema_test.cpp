@@ -22,6 +22,7 @@ std::vector<Channel> searched_channels(const Problem& problem) {
     std::vector<Channel> channels = all_channels(problem);
     const bool cam = problem.cam.has_value();
     std::erase_if(channels, [&](Channel c) {
+        if (c.kind == ChannelKind::q_dot) return true;  // no output has extrema of them, so they have no bounds
         return c.kind == ChannelKind::energy_residual || (!cam && traits(c.kind).needs_cam);
     });
     return channels;

@@ -308,6 +308,7 @@ TEST_P(PropertyOfProblems, ScaledLengthMassAndTimeScaleTheMotion) {
             if (std::holds_alternative<StickSlipFriction>(p.contact.friction)) return std::nullopt;
             Problem s = p;
             s.beam.length *= l;
+            s.beam.depth = l * beam_depth(p.beam);
             s.beam.area *= l * l;
             s.beam.second_moment *= std::pow(l, 4);
             s.beam.density *= m / (l * l * l);
