@@ -25,6 +25,7 @@ PRIVATE_LIBRARIES = [
     ("OSMesa or EGL", re.compile(r"^(GL/osmesa\.h|EGL/)"), {"render": 2}),
     ("FFmpeg", re.compile(r"^(libav\w+|libsw\w+)/"), {"output": 4}),
     ("libnetcdf", re.compile(r"^netcdf"), {"output": 3}),
+    ("HDF5", re.compile(r"^hdf5"), {"output": 1}),
     ("OpenSSL", re.compile(r"^openssl/"), {"output": 1}),
     ("libspng", re.compile(r"^spng\.h$"), {"output": 1}),
     ("nlohmann-json", re.compile(r"^nlohmann/"), {"output": 3}),

@@ -1,4 +1,5 @@
 // The module: sweeps and tables as NetCDF-4 files.
+#include <hdf5.h>
 #include <netcdf.h>
 #include <stdlib.h>
 
@@ -23,8 +24,12 @@ void write_columns(const NcFile& file, const ColumnTable& table) {
 
 class Library final : public NetcdfLibrary {
   public:
-    // HDF5 would refuse to open the file, which AtomicFile holds locked. It reads the variable at its first use.
-    Library() { setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1); }
+    // Before the first use of HDF5, which would refuse to open the file that AtomicFile holds locked, and which at exit
+    // would close a file again that it could not write, and crash.
+    Library() {
+        setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1);
+        H5dont_atexit();
+    }
 
     void write(const std::filesystem::path& file, const std::filesystem::path& named,
                const SweepData& data) const override {
