@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iostream>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "output/data/npz.hpp"
 #include "output/files/atomic_file.hpp"
 #include "output/files/numbers.hpp"
+#include "output/files/standard_output.hpp"
 
 namespace beamcam::output {
 
@@ -101,8 +103,9 @@ std::vector<std::string> ColumnTable::names() const {
 
 std::function<void(const std::string&)> to_stream(std::ostream& out) {
     return [&out](const std::string& text) {
-        if (!out.write(text.data(), static_cast<std::streamsize>(text.size())).flush())
-            throw IoError("cannot write the table: the output was closed or the disk is full");
+        if (out.write(text.data(), static_cast<std::streamsize>(text.size())).flush()) return;
+        if (&out == &std::cout) flush_data();  // its reader may have ended, which is no error
+        throw IoError("cannot write the table: the output was closed or the disk is full");
     };
 }
 
