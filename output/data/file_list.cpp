@@ -89,6 +89,10 @@ std::optional<FileRecord> record_of(const std::string& line) {
 Descriptor locked_list(const fs::path& list) {
     for (;;) {
         Descriptor opened(list, O_RDWR | O_APPEND | O_CREAT | O_NOFOLLOW | O_NONBLOCK);
+        if (!opened && errno == EACCES && is_list(list)) {  // another user's, in a folder of both
+            write_file(list, read_file(list));
+            opened = Descriptor(list, O_RDWR | O_APPEND | O_NOFOLLOW | O_NONBLOCK);
+        }
         struct stat own = {}, present = {};
         if (!opened || fstat(opened.number(), &own) != 0) throw write_error(list, errno);
         if (own.st_nlink == 0) continue;  // it was replaced just now

@@ -21,10 +21,10 @@ bool has_period(AttractorClass kind) {
     return kind == AttractorClass::rest || kind == AttractorClass::following || kind == AttractorClass::periodic;
 }
 
-// Motions without period are one class: what tells them apart is an exponent with an error.
+// Motions without period, settled or not, are one class: errors and small differences tell them apart.
 bool is_same_class(AttractorClass a, AttractorClass b) {
     const auto is_irregular = [](AttractorClass kind) {
-        return !has_period(kind) && kind != AttractorClass::over_the_top && kind != AttractorClass::unsettled;
+        return !has_period(kind) && kind != AttractorClass::over_the_top;
     };
     return a == b || (is_irregular(a) && is_irregular(b));
 }

@@ -34,7 +34,9 @@ TEST(FileSafety, WhatASignalLeavesIsRecordedOrAbsent) {
             shell(folder, "$BEAMCAM render s.json -o out/f.mp4 --poster 0.01 --to 0.05 --size 96x96 -q");
         EXPECT_EQ(again.code, 0) << signal << again.err;
         // What a kill left half-written goes when it is an hour old.
-        shell(folder, "touch -d '2 hours ago' out/.*.part; $BEAMCAM render s.json -o out/g.png --at 0 --size 64x64 -q");
+        shell(folder,
+              "find out -name '.*.part' -exec touch -d '2 hours ago' {} +; $BEAMCAM render s.json -o out/g.png --at 0 "
+              "--size 64x64 -q");
         std::vector<std::string> left;
         for (const auto& file : fs::directory_iterator(folder / "out")) left.push_back(file.path().filename().string());
         EXPECT_THAT(left, ::testing::UnorderedElementsAre("f.mp4", "f.png", "g.png", ".beamcam.jsonl")) << signal;
