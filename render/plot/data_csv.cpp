@@ -18,13 +18,13 @@ void append(std::string& out, double value) {
 }
 
 // A CSV cell, quoted if it holds commas or quotes.
-std::string cell_text(const std::string& markup) {
-    std::string plain = to_plain(markup);
+std::string csv_cell(const std::string& plain) {
     if (plain.find_first_of(",\"\n") == std::string::npos) return plain;
     std::string out = "\"";
     for (const char c : plain) out += c == '"' ? std::string("\"\"") : std::string(1, c);
     return out + '"';
 }
+std::string cell_text(const std::string& markup) { return csv_cell(to_plain(markup)); }
 
 std::string quantity_of(const Axis& axis) { return axis.label.substr(0, axis.label.rfind(" / ")); }
 
@@ -174,8 +174,8 @@ class CurveTable {
     }
 
     std::string csv() const {
-        std::string out = cell_text(key_);
-        for (const CurveColumn& column : columns_) out += "," + cell_text(column.name);
+        std::string out = csv_cell(key_);
+        for (const CurveColumn& column : columns_) out += "," + csv_cell(column.name);
         out += "\n";
         std::vector<std::size_t> next(columns_.size(), 0);
         for (double key = first_key(next); std::isfinite(key); key = first_key(next)) add_rows(out, next, key);

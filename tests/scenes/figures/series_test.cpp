@@ -310,7 +310,7 @@ TEST(Measured, DataAreDrawnAndJudged) {
     EXPECT_THAT(shell(folder, "$BEAMCAM run m.json -o . 2>&1").out, HasSubstr("wrote"));
     const Finished drawn = shell(folder, "$BEAMCAM figure m.json angle -o a.svg --data d.csv");
     ASSERT_EQ(drawn.code, 0) << drawn.err;
-    EXPECT_THAT(testing::slurp(folder / "d.csv"), HasSubstr("rig: θ / °"));
+    EXPECT_THAT(testing::slurp(folder / "d.csv"), HasSubstr("t / s,rig: θ / rad,θ / rad\n"));
 }
 
 // Data of t and θ, drawn over either and over the phase, which the cam's law gives from t.
@@ -320,13 +320,12 @@ TEST(Measured, DataAreDrawnOverThePhaseOfTheCam) {
     folder.write("m.json", R"({"time": {"end": 0.4}, "cam": {"speed": -20, "phase": "90 deg"},
                                "data": [{"file": "rig.csv", "label": "rig", "theta": "theta"}]})");
     const auto drawn = [&](const std::string& options) {
-        const Finished made =
-            shell(folder, "$BEAMCAM figure m.json " + options + " -o a.svg --data d.csv");
+        const Finished made = shell(folder, "$BEAMCAM figure m.json " + options + " -o a.svg --data d.csv");
         EXPECT_EQ(made.code, 0) << made.err;
         std::vector<std::pair<double, double>> points;
         const output::ColumnTable table = output::read_table(folder / "d.csv");
-        for (std::size_t c = 0; c + 1 < table.columns.size(); ++c)
-            if (table.columns[c].name.starts_with("rig: "))
+        for (std::size_t c = 0; c + 1 < table.columns.size() && points.empty(); ++c)
+            if (table.columns[c].name.starts_with("rig: "))  // x, then y
                 for (std::size_t row = 0; row < table.rows(); ++row)
                     if (const double x = table.columns[c].values[row]; std::isfinite(x))
                         points.emplace_back(x, table.columns[c + 1].values[row]);
@@ -494,14 +493,12 @@ TEST(Measured, DataHaveSpectraOfTheirOwn) {
     ASSERT_EQ(drawn.code, 0) << drawn.err;
     EXPECT_THAT(drawn.err, HasSubstr("the instants of the data \"uneven\" are too few or not equally spaced"));
     EXPECT_THAT(drawn.err, Not(HasSubstr("\"even\"")));
-    std::istringstream rows(testing::slurp(folder / "a.csv"));
-    std::string line;
+    const output::ColumnTable table = output::read_table(folder / "a.csv");
+    const std::vector<double>*f = table.find("f / Hz"), *amplitude = table.find("even: |v| / µm");
+    ASSERT_TRUE(f && amplitude) << testing::slurp(folder / "a.csv").substr(0, 200);
     double at = 0, most = 0;
-    while (std::getline(rows, line)) {
-        double f = 0, amplitude = 0;
-        if (std::sscanf(line.c_str(), "1,even,f / Hz,%lf,|v| / µm,%lf", &f, &amplitude) == 2 && amplitude > most)
-            most = amplitude, at = f;
-    }
+    for (std::size_t row = 0; row < table.rows(); ++row)
+        if ((*amplitude)[row] > most) most = (*amplitude)[row], at = (*f)[row];
     EXPECT_NEAR(at, 50, 1);
     EXPECT_NEAR(most, 2000, 20);
 }
