@@ -75,8 +75,9 @@ bool SceneRun::is_part_of_sweep(std::size_t output) const {
 void SceneRun::report_up_to_date() {
     for (const std::size_t output : existing_.finished) {
         ++context_.work.files_left;
-        context_.print("kept {}: up to date (--force writes it again)\n",
-                       files_.path_of(file_of(scene_.outputs[output])).string());
+        std::string file = file_of(scene_.outputs[output]);
+        if (is_part_of_sweep(output)) file = part_file(file, context_.options.shard);
+        context_.print("kept {}: up to date (--force writes it again)\n", files_.path_of(file).string());
     }
 }
 
