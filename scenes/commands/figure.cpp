@@ -149,7 +149,7 @@ FigureOutput figure_output(const FigureArguments& args, const std::optional<Pres
                     {&args.print, args.describes_panel() ? &no_channels : &args.channels, &args.panel, &args.span},
                     scene, args.scene, args.common));
     figure.file = args.file;
-    if (SeriesKeys& keys = figure.series; !keys.compare.empty())
+    if (SeriesKeys& keys = figure.series; !args.compare.empty())
         keys.compare.front().problem = scene.problem;  // with the values of --set
     for (SeriesPanel& panel : figure.series.panels) panel.logarithmic = panel.logarithmic || args.logarithmic;
     if (args.data) {

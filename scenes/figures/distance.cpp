@@ -209,7 +209,7 @@ FigureDrawing prepare_distance(const Scene& scene, const FigureOutput&, Studies&
         Panel panel = distance_panel(trial);
         panel.insets.push_back({.panel = {arrivals_panel(trial, strikes, lang)}, .width = 0.42, .height = 0.42});
         Figure figure{.panels = {std::move(panel)}, .aspect = 0.76};
-        add_caption(figure, {{&problem, &strikes}, {&falling, &falls}});
+        add_caption(figure, {{&problem, &strikes}});
         return figure;
     };
 }

@@ -206,6 +206,15 @@ TEST(Presets, WithMistakesAreReported) {
     EXPECT_EQ(shell(folder, "$BEAMCAM figure s.json --preset none.json -o a.svg").code, 6);
 }
 
+TEST(Presets, CompareTheMotionsOfTheirKeys) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.4}})");
+    ASSERT_EQ(shell(folder, "$BEAMCAM figure s.json speeds -o a.pdf -q").code, 0);
+    const std::string shown = shell(folder, "$BEAMCAM info a.pdf --scene").out;
+    for (const char* speed : {"0.0", "1.0", "5.0"})
+        EXPECT_THAT(shown.substr(shown.find("\"compare\"")), HasSubstr(fmt::format("\"speed\": {}", speed)));
+}
+
 // The keys of the output stand before those of the preset.
 TEST(Presets, GiveKeysThatAnOutputCanReplace) {
     const Scene scene = scene_from(R"({"time": {"end": 0.4}, "outputs": [
