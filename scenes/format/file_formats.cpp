@@ -73,9 +73,8 @@ void visit_rows(SceneVisitor& v, std::optional<double>& rate, std::vector<double
         sim::written_if(times.empty(), "rate"), rate, sim::dimension::kFrequency, sim::kPositive,
         "Rows at the times k/rate, and at the end. \"adaptive\": as many rows as the curves of the channels, drawn "
         "from the start to the end, need to be within about 0.2 % of their ranges, so that peaks are complete; two "
-        "rows at "
-        "one "
-        "time are the sides of a jump. Without \"channels\" those of single modes and the separation do not count.",
+        "rows at one time are the sides of a jump. Without \"channels\" those of single modes and the separation do "
+        "not count.",
         "adaptive");
     visit_times(v, times);
 }

@@ -225,7 +225,7 @@ void SampleRecorder::finish() {
     }
 }
 
-// In the order of time. Of an adaptive table, one row of each instant, or both sides of a jump.
+// The rows are in the order of time. An adaptive table keeps one row of each instant, or both sides of a jump.
 std::vector<std::size_t> SampleRecorder::kept_rows(std::size_t i, const std::vector<double>& times,
                                                    const std::vector<std::vector<double>>& values) const {
     const std::vector<std::size_t> order = ascending(times).order;

@@ -60,7 +60,7 @@ TEST(TableSmoothing, StepsExplainTheRoughnessOfTheirErrors) {
 }
 
 TEST(TableSmoothing, MinimizesTheCurvatureWithinTheDeviation) {
-    // The same by the normal equations of natural splines with dense matrices, (S93).
+    // The residuals satisfy the normal equations (S93), here with dense matrices.
     const std::vector<double> t{0, 0.3, 0.5, 1.1, 1.2, 1.9, 2.4}, y{0, 0.4, 0.1, 0.8, 0.6, 0.2, 0.5};
     const double deviation = 0.05;
     const std::vector<double> found = smoothed(t, y, deviation);
