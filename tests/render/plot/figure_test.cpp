@@ -527,6 +527,7 @@ TEST(FigureData, RowsOfAPhasePortraitAreInTheOrderOfTime) {
     Figure figure = plot({1, 0, 2}, {4, 5, 6});
     figure.panels[0].x.label = "x / m";
     figure.panels[0].series[0].t = {0.1, 0.2, 0.3};
+    figure.panels[0].series[0].label.clear();
     EXPECT_EQ(data_csv(figure),
               "t / s,x / m,θ / rad\n0.10000000000000001,1,4\n0.20000000000000001,0,5\n0.29999999999999999,2,6\n");
 }
@@ -534,8 +535,9 @@ TEST(FigureData, RowsOfAPhasePortraitAreInTheOrderOfTime) {
 TEST(FigureData, CloudsHaveALineAPoint) {
     Figure figure = plot({0}, {1});
     figure.panels[0].clouds.push_back({.label = "samples", .x = {2}, .y = {3}});
-    EXPECT_EQ(data_csv(figure),
-              "panel,series,x_quantity,x,y_quantity,y,value\n1,θ,t / s,0,θ / rad,1,\n1,samples,t / s,2,θ / rad,3,\n");
+    EXPECT_EQ(
+        data_csv(figure),
+        "panel,series,x_quantity,x,y_quantity,y,value\n1,curve,t / s,0,θ / rad,1,\n1,samples,t / s,2,θ / rad,3,\n");
 }
 
 TEST(FigureData, ACurveHasEachInstantOnceUnlessItJumpsThere) {
