@@ -92,7 +92,7 @@ Comparison compare_pictures(const DiffArguments& args) {
     DifferencePictures pictures(args);
     for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k) {
         stop_if_interrupted();
-        if (have_same_bytes(a[k], b[k]) && output::png_kind(a[k]) != output::PngKind::none) continue;
+        if (have_same_bytes(a[k], b[k]) && output::is_png(a[k])) continue;
         const output::Raster left = output::read_png(a[k]), right = output::read_png(b[k]);
         PictureComparison found = compare(left, right, tolerance);
         if (args.ssim && found.same_size() && found.difference.ssim >= *args.ssim)
