@@ -245,8 +245,8 @@ TEST(Films, ScenesOfTheCommandLineAreCompared) {
                                     "$BEAMCAM render a.json b.json -o c.png --at 0.4 --style flat --size 640x360 && "
                                     "$BEAMCAM render a.json b.json -o c.png --at 0.4 --style flat -n");
     EXPECT_EQ(finished.code, 0) << finished.err;
-    EXPECT_THAT(finished.out, HasSubstr("needed by c.png for \"slow\""));
-    EXPECT_THAT(finished.out, HasSubstr("needed by c.png for \"fast\""));
+    EXPECT_THAT(finished.out, HasSubstr("until 0.4 s, \"slow\""));
+    EXPECT_THAT(finished.out, HasSubstr("until 0.4 s, \"fast\""));
 }
 
 // A grid of one mechanism would show the first motion alone.
