@@ -45,6 +45,7 @@ TEST(Reader, TheShippedDefaultSaysInUnitsWhatTheDefaultsAreInNumbers) {
     scene.outputs.clear();
     EXPECT_EQ(to_json(scene), to_json([&] {
                   empty.problem.beam.damping_ratio = {0};
+                  empty.problem.beam.depth = beam_depth(empty.problem.beam);
                   empty.units = {true, render::SpeedUnit::radians};
                   return empty;
               }()));
