@@ -28,7 +28,7 @@ constexpr const char* kDefinitions = R"({
         "anyOf": [
             {"type": "number", "minimum": 0},
             {"$ref": "#/$defs/withUnit"},
-            {"type": "string", "pattern": "^((impact|collision|apex|touch|release):[1-9][0-9]{0,8}|touch|release|last)$"}
+            {"type": "string", "pattern": "^((impact|collision|apex|touch|release|liftoff):[1-9][0-9]{0,8}|touch|release|liftoff|last)$"}
         ]
     },
     "anchor": {

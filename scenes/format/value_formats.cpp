@@ -152,7 +152,7 @@ std::optional<Instant> read_instant(ObjectReader& r, const Node& node, const std
     if (text.starts_with("last") || std::ranges::any_of(kEventWords, begins)) {
         const auto event = parse_event(text);
         if (!event)
-            r.reject_value(node, key, ": events are counted from 1: impact:1, collision:2, apex:1, release:3, touch");
+            r.reject_value(node, key, ": events are counted from 1: impact:1, collision:2, apex:1, release:3, liftoff:2, touch");
         return event;
     }
     const auto t = r.ranged_value(node, key, sim::dimension::kTime, kFromStart);
@@ -173,7 +173,7 @@ Node written(const Instant& at) {
 
 template <class Value>
 ValueFormat format_of_instant(Value& at) {
-    return format_of(at, "time, \"impact:N\", \"collision:N\", \"apex:N\", \"touch\", \"release\" or \"last\"",
+    return format_of(at, "time, \"impact:N\", \"collision:N\", \"apex:N\", \"touch\", \"release\", \"liftoff:N\" or \"last\"",
                      R"({"$ref": "#/$defs/instant"})", read_instant, written);
 }
 
