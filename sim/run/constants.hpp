@@ -16,7 +16,9 @@ inline constexpr double kLongStep = 1e3;  // [rad] of the fastest vibration: aft
 // shorter than kSureProjection, which a brief phase can be, the limit grows with the square of the ratio.
 inline constexpr long kFirstProjection = 20000;
 inline constexpr double kSureProjection = 30000, kHopeless = 100;
-inline constexpr double kUnboundedDeflection = 1e3;  // of the length, or rad: not a deflection of a beam
+// Of the length, or rad: the largest number that a scene may have. How fast a linear model diverges above its critical
+// speed is a question that runs answer, so that a deflection that no beam has does not end them.
+inline constexpr double kUnboundedDeflection = 1e30;
 
 // ---- event location ----
 // Subintervals of one step: the usual maximum, which resolves polynomials of degree twelve, and the limit at which the
