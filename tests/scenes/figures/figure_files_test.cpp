@@ -55,7 +55,7 @@ TEST(Figures, DataAndCaptionLieBesideThem) {
     const Folder folder;
     folder.write("s.json", "{}");
     ASSERT_EQ(shell(folder, "$BEAMCAM figure s.json deflection -o a.png --data a.csv --caption a.txt -q").code, 0);
-    EXPECT_THAT(testing::slurp(folder / "a.csv"), StartsWith("panel,series,x_quantity,x,y_quantity,y,value\n"));
+    EXPECT_THAT(testing::slurp(folder / "a.csv"), StartsWith("horizontal distance x from O / m,"));
     EXPECT_THAT(testing::slurp(folder / "a.txt"), HasSubstr("All parameters have their default values."));
     EXPECT_THAT(testing::slurp(folder / "a.png"), HasSubstr("pHYs"));
     EXPECT_THAT(testing::slurp(folder / "a.png"), HasSubstr("beamcam-scene"));

@@ -196,7 +196,7 @@ TEST(Presets, WithMistakesAreReported) {
         EXPECT_NE(made.code, 0) << preset;
         return made.err;
     };
-    EXPECT_THAT(refusal(R"({"figure": "series", "chanels": ["theta"]})"), HasSubstr("chanels"));
+    EXPECT_THAT(refusal(R"({"figure": "series", "channels": ["theta"], "fom": 0.1})"), HasSubstr("unknown key \"fom\""));
     EXPECT_THAT(refusal(R"({"figure": "serious", "channels": ["theta"]})"),
                 HasSubstr("there is no figure \"serious\""));
     EXPECT_THAT(refusal(R"({"channels": ["thetta"]})"), HasSubstr("did you mean \"theta\"?"));

@@ -344,7 +344,7 @@ TEST(Measured, DataAreDrawnOverThePhaseOfTheCam) {
     // Data are not drawn over a channel that they do not hold, which a message states.
     const auto [none, report] = drawn("--channels theta --x theta_dot");
     EXPECT_EQ(none.size(), 0u);
-    EXPECT_THAT(report, HasSubstr("warning: --x = \"theta_dot\": the data \"rig\" have no theta_dot"));
+    EXPECT_THAT(report, HasSubstr("x = \"theta_dot\": the data \"rig\" have no theta_dot; they are not drawn"));
 }
 
 TEST(Measured, BadFilesAreReportedWithTheirPlace) {
