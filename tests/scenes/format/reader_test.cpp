@@ -263,7 +263,7 @@ TEST(Reader, ATypeThatIsLeftOutFollowsFromTheOtherKeys) {
     EXPECT_TRUE(std::holds_alternative<sim::HarmonicTorque>(drive(R"({"amplitude": 1, "frequency": 2})")));
     EXPECT_TRUE(std::holds_alternative<sim::ConstantSpeed>(drive(R"({"speed": 1, "x-why": "paper"})")));
     EXPECT_TRUE(std::holds_alternative<sim::SpinUp>(drive(R"({"type": "prescribed", "speed": 1, "duration": 2})")));
-    EXPECT_TRUE(std::holds_alternative<sim::AngleTable>(drive(R"({"law": "table", "t": [0, 1], "theta": [0, 1]})")));
+    EXPECT_TRUE(std::holds_alternative<sim::AngleTable>(drive(R"({"law": "table", "t": [0, 1], "theta": [0.8, 1]})")));
     EXPECT_TRUE(std::holds_alternative<sim::StickSlipFriction>(
         read(R"({"contact": {"friction": {"coefficient": 0.2, "static_coefficient": 0.3}}})")
             .scene.value()
@@ -271,7 +271,7 @@ TEST(Reader, ATypeThatIsLeftOutFollowsFromTheOtherKeys) {
     EXPECT_THAT(messages(read(R"({"contact": {"friction": {"coefficient": 0.2}}})")),
                 ElementsAre("1:26 contact.friction needs \"type\", one of coulomb, stick-slip"));
     EXPECT_THAT(messages(read(R"({"hub": {"drive": {"torqe": 1}}})")),
-                ElementsAre("1:18 hub.drive needs \"type\", one of free, torque, prescribed"));
+                ElementsAre("1:19 hub.drive needs \"type\", one of free, torque, prescribed"));
     EXPECT_THAT(messages(read(R"({"outputs": [{"file": "a.mp4"}]})")),
                 ElementsAre(HasSubstr("needs \"type\", one of video")));
 }
