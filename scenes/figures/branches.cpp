@@ -157,8 +157,8 @@ Figure branches_figure(const output::BranchTable& table, const SweptImpacts& swe
         throw render::PictureError("branches: no orbit with impacts was followed, so there is nothing to draw");
     Figure figure{.name = "branches",
                   .title = fmt::format("Approach speeds of periodic orbits over {}: SN fold, PD period doubling, NS "
-                                       "Neimark–Sacker, BP branching, G grazing, C corner, R release",
-                                       symbol_of(table.key)),
+                                       "Neimark–Sacker, BP branching, G grazing, C corner, R release{}",
+                                       symbol_of(table.key), with_sweep ? "; dots: impacts of a sweep" : ""),
                   .panels = {std::move(panel)}};
     add_caption(figure, problems_along(table, scene.problem));
     figure.accuracy = "Newton's method on the section map at relative tolerance 10^{−12}.";
