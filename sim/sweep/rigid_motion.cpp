@@ -83,7 +83,9 @@ std::optional<double> RigidMotion::first_touch(double h) {
         const SurfaceAngle c = surface_at(s_ + t);
         double g = series_.theta(t) - c.angle;
         const double v = series_.rate(t) - surface_.rate(c);
-        if ((touched_ && t == 0) || (g < 0 && v > 0 && g > -kOpeningDepth)) g = std::max(g, 0.0);
+        // A gap that opens is at least as wide as the rounding of its angles, or the steps would stay as short as that.
+        if ((touched_ && t == 0) || (g < 0 && v > 0 && g > -kOpeningDepth))
+            g = std::max(g, v > 0 ? kAngleRounding : 0.0);
         if (g < 0 || (g == 0 && !(v > 0))) return t;
         if (const auto certain = above.certain_time(g, v)) {
             const double at = falling(t, t + *certain, h);

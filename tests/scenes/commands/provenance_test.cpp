@@ -126,7 +126,7 @@ TEST(Info, PagesFiguresAndTheFilesBesideThemAreKnownByTheManifest) {
                   .code,
               0);
     for (const auto& [file, kind] : {std::pair{"a.html", "page"}, std::pair{"f.svg", "SVG figure"},
-                                     std::pair{"f.csv", "table with texts"}, std::pair{"f.txt", "caption"}}) {
+                                     std::pair{"f.csv", "table"}, std::pair{"f.txt", "caption"}}) {
         const Finished info = shell(folder, std::string("$BEAMCAM info ") + file);
         EXPECT_THAT(info.out, HasSubstr(fmt::format("{}: {}\n", file, kind))) << info.err;
         EXPECT_THAT(info.out, HasSubstr("made by        beamcam 0.")) << file;
