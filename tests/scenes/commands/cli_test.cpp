@@ -148,16 +148,16 @@ TEST(CommandLine, WrongUsageIsTwo) {
     }
     EXPECT_THAT(shell(folder, "$BEAMCAM sweep s.json").err, HasSubstr("no key varies"));
     EXPECT_THAT(shell(folder, "$BEAMCAM figure s.json --channels theta --low abc -o a.pdf -n").err,
-                HasSubstr("beamcam: --low = \"abc\": it does not begin with a number"));
+                HasSubstr("beamcam: --low: panels.0.low = \"abc\": it does not begin with a number"));
     for (const auto& [arguments, message] :
          {std::pair{"figure s.json --channels theta --low 3 --high 1 -o a.pdf", "high must be above \"low\""},
-          std::pair{"render s.json --from 1 --to 0.5 -o a.mp4", "beamcam: the film from 1 s to 0.5 s has no frame"},
-          std::pair{"render s.json --from 1 --to 0.5 -o a.mp4", "--to: to must be later than \"from\""},
-          std::pair{"render s.json --from 30 -o a.mp4", "--from: from must be earlier than the end of the scene"},
+          std::pair{"render s.json --from 1 --to 0.5 -o a.mp4", "the film from 1 s to 0.5 s has no frame"},
+          std::pair{"render s.json --from 1 --to 0.5 -o a.mp4", "\"to\" must be later than \"from\""},
+          std::pair{"render s.json --from 30 -o a.mp4", "\"from\" must be earlier than the end of the scene"},
           std::pair{"render s.json --at 1 -o s.json/x.png", "s.json/x.png: s.json is not a directory"},
           std::pair{"render s.json --at 1 -o none/x.png", "none/x.png: the directory none does not exist"},
           std::pair{"render s.json --at 1 -o x.mp4", "-o x.mp4 must be a .png, .pdf or .svg file"},
-          std::pair{"render s.json --duration 1e9 -o a.mp4", "reduce --duration or --fps"},
+          std::pair{"render s.json --duration 1e9 -o a.mp4", "reduce \"duration\" or \"fps\""},
           std::pair{"test s.json --tolerance motion=1e9", "--tolerance.motion = 1e9 is outside 0 … 1"}})
         EXPECT_THAT(shell(folder, std::string("$BEAMCAM ") + arguments).err, HasSubstr(message));
     EXPECT_THAT(shell(folder, "$BEAMCAM rnder s.json").err, HasSubstr("did you mean \"render\"?"));
