@@ -60,10 +60,7 @@ SurfaceAngle CamSurface::at(double s) const {
     return c;
 }
 
-// A pull below the rounding of gravity's share lifts nothing.
-double CamSurface::push(const SurfaceAngle& c) const {
-    return acceleration(c) + k_ * std::cos(c.angle) - alpha_ + kPullRounding * std::fabs(k_);
-}
+double CamSurface::push(const SurfaceAngle& c) const { return acceleration(c) + k_ * std::cos(c.angle) - alpha_; }
 
 // θ_c = atan2(B_y, B_x) + Φ(u), u = ρ², Φ = asin(R'/√u). Of the first term the second derivative is (c² − e²)u′/(2u²),
 // c = |C|. Both 1/u and 1/ℓ fall with u and so do the magnitudes of all their derivatives; those of Φ, made of them,

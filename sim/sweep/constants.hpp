@@ -30,7 +30,6 @@ inline constexpr double kWholeTurn = 1e-12;  // of the number of turns: rounding
 // ---- the rigid beam between impacts ----
 inline constexpr int kSurfacePlaces = 128;       // around the turn, to begin with: then halved where bounds ask for it
 inline constexpr double kSurfaceMargin = 0.005;  // of the range of θ̈_c, by which its bounds may exceed its extrema
-inline constexpr double kPullRounding = 1e-12;   // of gravity's share of θ̈
 inline constexpr int kMostSurfaceHalvings = 30;  // of the distance of two places, to rounding
 inline constexpr double kInsideBeam =
     1e-3;  // of the length: least distance of the contact from the beam's ends and the axis

@@ -285,9 +285,10 @@ TEST(Identity, ChangesExactlyWithTheLeavesThatMatter) {
                         fmt::format("{}: {} = {}", file.filename().string(), leaf.id, value.dump());
                     if (leaf.id != "outputs[]{type=figure}.figure")  // a preset may bring motions of its own
                         EXPECT_EQ(after.motion != before.motion, decides_the_motion(leaf, *scene, *reread)) << what;
-                    for (std::size_t i = 0; i < before.outputs.size(); ++i)
-                        EXPECT_EQ(after.outputs[i] != before.outputs[i], shows(*scene, i, leaf))
-                            << what << ", of " << i;
+                    if (leaf.id != "outputs[]{type=state}.at")  // a later state makes the motion longer
+                        for (std::size_t i = 0; i < before.outputs.size(); ++i)
+                            EXPECT_EQ(after.outputs[i] != before.outputs[i], shows(*scene, i, leaf))
+                                << what << ", of " << i;
                     if (!leaf.words.contains(value.is_string() ? value.get<std::string>() : "")) break;
                 }
             }
