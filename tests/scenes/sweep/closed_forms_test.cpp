@@ -119,7 +119,7 @@ TEST(SweepClosedForms, SmallCamIsABouncingBall) {
     const double doubling = std::hypot(fold, 2 * (1 + r * r) / ((1 + r) * (1 + r)));
     EXPECT_NEAR(fold, 1.0471975512, 1e-10);
     EXPECT_NEAR(doubling, 1.5268237005, 1e-10);
-    // Nearer to Γ = 1 the bounces after the first impact are below the accuracy of a settled motion.
+    // The point Γ = 1 itself, where the disc begins to lift the beam, is left out.
     const auto down = classes(ball(1.3, 1.005, 65, "carry-up")), up = classes(ball(1.3, 1.56, 65, "carry-up"));
     const auto gamma = [](double speed) {
         const double fall = 1.5 * 9.81 * std::cos(std::asin(0.004)), lever = std::sqrt(0.0625 - 1e-6);
