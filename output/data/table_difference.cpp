@@ -40,7 +40,7 @@ std::vector<Pair> common_rows(const ColumnTable& a, const ColumnTable& b, double
     };
     const std::vector<double>*ta = instants(a), *tb = instants(b);
     if (ta == nullptr || tb == nullptr) {
-        for (std::size_t i = 0; i < std::min(a.rows(), b.rows()); ++i) pairs.push_back({i, i, double(i)});
+        for (std::size_t i = 0; i < std::min(a.rows(), b.rows()); ++i) pairs.push_back({i, i, NAN});
         return pairs;
     }
     const std::vector<std::size_t> oa = in_order_of(*ta), ob = in_order_of(*tb);
