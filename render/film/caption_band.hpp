@@ -1,10 +1,20 @@
-// The texts of events in a picture without a mechanism: in a band below the charts, beside each other.
+// The texts of events, one at a time, in a band below the panels.
 #pragma once
 
 #include "render/film/panel.hpp"
+#include "render/plot/user_text.hpp"
 
 namespace beamcam::render {
 
-void draw_caption_band(Canvas& canvas, const FilmContext& context, const Box& band, int frame);
+class CaptionBand {
+  public:
+    explicit CaptionBand(const FilmContext& context);
+    void draw(Canvas& canvas, int frame) const;
+    bool cuts_texts() const;
+
+  private:
+    const FilmContext& context_;
+    std::vector<FittedText> texts_;  // of the callouts
+};
 
 }  // namespace beamcam::render

@@ -1,71 +1,95 @@
 #include "render/film/clock_line.hpp"
 
 #include <algorithm>
-#include <string_view>
-
-#include "render/film/mechanism_marks.hpp"
+#include <limits>
+#include <span>
 
 namespace beamcam::render {
 namespace {
 
-using Brevity = ClockLine::Brevity;
+struct Sizes {
+    double clock, letters;
+};
+constexpr Sizes kUsualSizes{46, 20}, kSmallSizes{28, 17};  // [design px]
+constexpr double kAfterClock = 36, kBetweenPills = 14;     // [design px]
+constexpr double kPadding = 1.7;                           // of a pill, in sizes of its letters
 
-constexpr double kClock = 46, kLetters = 20;            // sizes [design px]
-constexpr double kAfterClock = 36, kBetweenPills = 14;  // [design px]
-constexpr double kPadding = 1.7;                        // of a pill, in sizes of its letters
-
-// "defl. ×5" of "deflection ×5"; "×5" and "1/50" of "1/50 speed".
-std::string short_form(std::string words, Brevity brevity) {
-    const auto replace = [&](std::string_view from, std::string_view by) {
-        if (const auto at = words.find(from); at != std::string::npos) words.replace(at, from.size(), by);
-    };
-    if (brevity == Brevity::abbreviated) replace("deflection ", "defl. ");
-    if (brevity == Brevity::numbers)
-        for (const std::string_view dispensable : {"deflection ", " speed", "挠度 ", " 倍速"}) replace(dispensable, "");
-    return words;
+std::string peak_text(const FilmContext& context, const std::string& force) {
+    return context.translate("peak") + "\u00A0$F$\u2009=\u2009" + force;
 }
 
 }  // namespace
 
+double recent_peak(const FilmContext& context, int member, int frame) {
+    constexpr double kHeld = 1;  // [s of the film], freezes not counted
+    const std::vector<sim::Impact>& impacts = context.motion(member).impacts;
+    const std::vector<TraceSample>& samples = context.samples[static_cast<std::size_t>(member)];
+    const double t = context.at(frame);
+    const auto later = std::ranges::upper_bound(impacts, t, {}, &sim::Impact::t_start);
+    if (later == impacts.begin()) return 0;
+    double peak = 0, end = -std::numeric_limits<double>::infinity();
+    for (const sim::Impact& impact : std::span(impacts.begin(), later)) {
+        if (impact.collision != std::prev(later)->collision) continue;
+        end = std::max(end, std::min(impact.t_end.value_or(t), t));
+        if (impact.t_end && *impact.t_end <= t) {
+            peak = std::max(peak, impact.force_peak.value_or(0));
+            continue;
+        }
+        const auto first = std::ranges::lower_bound(samples, impact.t_start, {}, &TraceSample::t);
+        for (auto sample = first; sample != samples.end() && sample->t < t; ++sample)
+            peak = std::max(peak, sample->force);
+        if (const sim::Pose pose = context.pose(member, frame); pose.nearest)
+            peak = std::max(peak, pose.nearest->force);
+    }
+    if (end < context.times.front()) return 0;
+    const auto ended = static_cast<std::size_t>(std::ranges::lower_bound(context.times, end) - context.times.begin());
+    const int since = context.moved[static_cast<std::size_t>(frame)] - context.moved[ended];
+    return since < kHeld * context.setup->fps ? peak : 0;
+}
+
+// Without room in the smaller size, the last pills are left out.
 ClockLine::ClockLine(const FilmContext& context) : context_(context) {
     const FilmSetup& setup = *context.setup;
-    if (setup.view.show.legend && context.factor > 1 && context.places.first(PanelKind::mechanism))
-        pills_.push_back({context.translate("deflection ×" + power_text(context.factor)), context.palette->motion});
+    const bool mechanism = context.places.first(PanelKind::mechanism) != nullptr;
+    if (!context.places.clock) return;
+    if (setup.view.show.legend && context.factor > 1 && mechanism)
+        pills_.push_back({Pill::Kind::exaggeration, context.translate("deflection ×" + power_text(context.factor)),
+                          context.palette->motion});
     if (setup.view.show.legend && !setup.speeds.empty())
-        pills_.push_back({context.translate(widest_speed_text(setup.speeds)), context.palette->contact, 0, true});
+        pills_.push_back(
+            {Pill::Kind::speed, context.translate(widest_speed_text(setup.speeds)), context.palette->contact});
+    for (int m = 0; m < context.members() && mechanism && setup.view.show.labels; ++m)
+        if (!context.motion(m).impacts.empty() && context.largest_force > 0)
+            pills_.push_back({Pill::Kind::peak, peak_text(context, "88.8\u00A0mN"),
+                              context.members() > 1 ? context.member_color(m) : context.palette->contact, m});
     steady_ = steady_speed(setup.speeds);
     Image scratch(1, 1);
-    Canvas canvas(scratch, *context.fonts);
-    if (context.places.clock) choose_sizes(canvas);
-}
-
-// Smaller letters and a smaller clock rather than numbers without words.
-void ClockLine::choose_sizes(Canvas& canvas) {
-    struct Sizes {
-        double clock, letters;
+    const Canvas canvas(scratch, *context.fonts);
+    const auto fits = [&](const Sizes& sizes) {
+        size_ = sizes.clock * context.unit, letters_ = std::max(sizes.letters * context.unit, kReadable);
+        return measure(canvas) <= context.places.clock->right();
     };
-    const double u = context_.unit;
-    for (const Sizes& sizes : {Sizes{kClock, kLetters}, {kClock, 16}, {34, 18}, {28, 18}, {24, 18}}) {
-        size_ = sizes.clock * u, letters_ = std::max(sizes.letters * u, kReadable);
-        if (measure(canvas) <= context_.places.clock->right()) return;
+    if (fits(kUsualSizes) || fits(kSmallSizes)) return;
+    while (!pills_.empty() && measure(canvas) > context.places.clock->right()) {
+        if (pills_.back().kind != Pill::Kind::peak) has_room_ = false;
+        pills_.pop_back();
     }
-    brevity_ = Brevity::abbreviated;
-    if (measure(canvas) <= context_.places.clock->right()) return;
-    brevity_ = Brevity::numbers;
-    size_ = kClock * u, letters_ = kLetters * u;
-    measure(canvas);
 }
 
-double ClockLine::measure(Canvas& canvas) {
-    const Box& b = *context_.places.clock;
+bool ClockLine::states_exaggeration() const {
+    return !pills_.empty() && pills_.front().kind == Pill::Kind::exaggeration;
+}
+
+double ClockLine::measure(const Canvas& canvas) {
     const double u = context_.unit, last = context_.at(context_.frames() - 1);
     clock_width_ = canvas.measure(clock_text(context_.time, last, last), clock_style()).w;
-    first_ = b.x + (context_.setup->view.show.clock ? clock_width_ + kAfterClock * u : 0);
-    double right = first_ - kBetweenPills * u;
-    for (Pill& pill : pills_) {
-        const std::string text = short_form(pill.widest, brevity_);
-        pill.width = canvas.measure(text, pill_style(pill)).w + kPadding * letters_;
-        right += kBetweenPills * u + pill.width + 0.2 * letters_;
+    double right = context_.places.clock->x;
+    if (context_.setup->view.show.clock) right += clock_width_;
+    first_ = right + (context_.setup->view.show.clock ? kAfterClock * u : 0);
+    for (double x = first_; Pill & pill : pills_) {
+        pill.width = canvas.measure(pill.widest, pill_style(pill)).w + kPadding * letters_;
+        right = x + pill.width;
+        x = right + kBetweenPills * u;
     }
     return right;
 }
@@ -83,32 +107,36 @@ TextStyle ClockLine::pill_style(const Pill& pill) const {
         .align = HAlign::centre};
 }
 
+// Empty: the pill is not shown.
 std::string ClockLine::words(const Pill& pill, int frame) const {
-    std::string all = pill.widest;
-    if (pill.states_speed)
-        all = context_.translate(speed_text(context_.setup->speeds[static_cast<std::size_t>(frame)], steady_));
-    return short_form(std::move(all), brevity_);
+    switch (pill.kind) {
+        case Pill::Kind::exaggeration:
+            return pill.widest;
+        case Pill::Kind::speed:
+            return context_.translate(speed_text(context_.setup->speeds[static_cast<std::size_t>(frame)], steady_));
+        case Pill::Kind::peak:
+            break;
+    }
+    const double peak = recent_peak(context_, pill.member, frame);
+    return peak > 0 ? peak_text(context_, reading(peak, "N")) : std::string();
 }
 
 void ClockLine::draw(Canvas& canvas, int frame) const {
     if (!context_.places.clock) return;
     const Box& b = *context_.places.clock;
     const double u = context_.unit, last = context_.at(context_.frames() - 1);
-    if (clock_width_ > b.w) return;
-    if (context_.setup->view.show.clock)
-        canvas.text({b.x, b.y + 24 * u + 16 / kClock * size_}, clock_text(context_.time, context_.at(frame), last),
-                    clock_style());
+    if (context_.setup->view.show.clock && clock_width_ <= b.w)
+        canvas.text({b.x, b.y + 24 * u + 16 / kUsualSizes.clock * size_},
+                    clock_text(context_.time, context_.at(frame), last), clock_style());
     double x = first_;
     for (const Pill& pill : pills_) {
         const std::string text = words(pill, frame);
-        const TextStyle style = pill_style(pill);
-        const Box box{x, b.y + 6 * u, std::max(pill.width, canvas.measure(text, style).w + kPadding * letters_),
-                      36 * u};
+        const Box box{x, b.y + 6 * u, pill.width, 36 * u};
         x = box.right() + kBetweenPills * u;
-        if (text.empty() || box.right() > b.right()) continue;
+        if (text.empty()) continue;
         canvas.rounded(box, 18 * u);
         canvas.fill(context_.setup->view.transparent ? pill.color : pill.color.faded(0.14));
-        canvas.text({box.x + box.w / 2, b.y + 24 * u + 0.35 * letters_}, text, style);
+        canvas.text({box.x + box.w / 2, b.y + 24 * u + 0.35 * letters_}, text, pill_style(pill));
     }
 }
 

@@ -1,4 +1,5 @@
-// The clock, and beside it exaggeration and playback speed. Sizes and places are the same for all frames.
+// The clock, and beside it exaggeration, playback speed and the peak forces of collisions. Sizes and places are the
+// same for all frames.
 #pragma once
 
 #include <string>
@@ -8,21 +9,26 @@
 
 namespace beamcam::render {
 
+// The largest force so far of a motion's latest collision, until a second of the film after its end; 0: none [N].
+double recent_peak(const FilmContext& context, int member, int frame);
+
 class ClockLine {
   public:
-    enum class Brevity { words, abbreviated, numbers };  // of the texts beside the clock
     explicit ClockLine(const FilmContext& context);
     void draw(Canvas& canvas, int frame) const;
+    bool states_exaggeration() const;
+    bool has_room() const { return has_room_; }  // for exaggeration and speed
 
   private:
     struct Pill {
-        std::string widest;  // text of all frames
+        enum class Kind { exaggeration, speed, peak };
+        Kind kind;
+        std::string widest;  // markup of all frames
         Color color;
+        int member = 0;    // of the peak
         double width = 0;  // [px]
-        bool states_speed = false;
     };
-    void choose_sizes(Canvas& canvas);
-    double measure(Canvas& canvas);  // widths of clock and pills, and the right end of the last pill [px]
+    double measure(const Canvas& canvas);  // widths of clock and pills, and the right end of the last pill [px]
     std::string words(const Pill& pill, int frame) const;
     TextStyle clock_style() const;
     TextStyle pill_style(const Pill& pill) const;
@@ -30,7 +36,7 @@ class ClockLine {
     const FilmContext& context_;
     std::vector<Pill> pills_;
     bool steady_ = true;  // one speed throughout
-    Brevity brevity_ = Brevity::words;
+    bool has_room_ = true;
     double size_ = 0;                     // of the clock [px]
     double letters_ = 0;                  // size of those in pills [px]
     double clock_width_ = 0, first_ = 0;  // of the widest time; left end of the first pill [px]

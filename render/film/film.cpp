@@ -26,7 +26,8 @@ struct Film::Prepared {
     Image background;                           // everything that never changes
     std::vector<Box> background_texts;
     std::optional<ClockLine> clock;
-    bool title_cut = false;
+    std::optional<CaptionBand> captions;
+    std::vector<std::string> cut_texts;
 
     explicit Prepared(std::shared_ptr<const FilmSetup> setup) : context(std::move(setup)) {
         for (const PanelSlot& slot : context.places.panels) {
@@ -36,6 +37,10 @@ struct Film::Prepared {
         }
         draw_background();
         clock.emplace(context);
+        captions.emplace(context);
+        if (std::ranges::any_of(panels, [](const auto& panel) { return panel->cuts_names(); }))
+            cut_texts.emplace_back("names");
+        if (captions->cuts_texts()) cut_texts.emplace_back("captions");
         context.fonts.reset();
         context.extent = {};  // not needed for drawing
     }
@@ -88,15 +93,17 @@ void Film::Prepared::draw_header(Canvas& canvas) {
     const FilmSetup& setup = *context.setup;
     const Layout& places = context.places;
     if (const auto& b = places.title; b && !setup.title.empty()) {
-        const FittedTitle title = fitted_title(canvas, setup.title, *b, u, context.palette->ink);
-        title_cut = title.cut;
-        for (const FittedTitle::Line& line : title.lines) canvas.text(line.baseline, line.markup, title.style);
+        const FittedText title = fitted_title(canvas, setup.title, *b, u);
+        if (title.cut) cut_texts.emplace_back("the title");
+        TextStyle style = title_style(u, context.palette->ink);
+        style.size = title.size;
+        canvas.text({b->x, b->y + 38 * u}, title.markup, style);
     }
     std::vector<const sim::Problem*> problems;
     for (int m = 0; m < context.members(); ++m) problems.push_back(&context.motion(m).problem);
     std::vector<std::string> pieces = common_pieces(problems, setup.units.speed);
     for (std::string& piece : pieces) piece = context.translate(std::move(piece));
-    const ParameterLine line = parameter_line(canvas, places, setup.title, pieces);
+    const ParameterLine line = parameter_line(canvas, places, pieces);
     for (const ParameterLine::Piece& piece : line.pieces)
         canvas.text(piece.baseline, piece.markup, {.size = line.size, .color = context.palette->muted});
     if (const auto& b = places.note; b && !setup.accuracy_note.empty())
@@ -125,12 +132,11 @@ bool Film::exaggeration_reduced() const {
         flexible = flexible || context.motion(m).problem.beam.model != sim::ModelKind::rigid;
     return flexible && context.factor < context.setup->view.exaggeration.value_or(1);
 }
-bool Film::states_exaggeration() const {
-    return prepared_->context.setup->view.show.legend && prepared_->context.places.clock;
-}
+bool Film::states_exaggeration() const { return prepared_->clock->states_exaggeration(); }
 bool Film::has_mechanism() const { return prepared_->context.places.first(PanelKind::mechanism) != nullptr; }
-bool Film::shows_captions() const { return has_mechanism() || prepared_->context.places.captions; }
-bool Film::title_truncated() const { return prepared_->title_cut; }
+bool Film::shows_captions() const { return prepared_->context.places.captions.has_value(); }
+bool Film::shows_clock_line() const { return prepared_->clock->has_room(); }
+const std::vector<std::string>& Film::cut_texts() const { return prepared_->cut_texts; }
 int Film::empty_frames() const { return prepared_->mechanism ? prepared_->mechanism->empty_frames() : 0; }
 const DrawingCounts& Film::counts() const { return *prepared_->context.counts; }
 
@@ -150,8 +156,8 @@ bool Film::repeats(int frame) const {
 void Film::Prepared::draw_moving(Canvas& canvas, int frame, Style style,
                                  const std::vector<std::unique_ptr<FilmPanel::State>>& states) const {
     for (std::size_t i = 0; i < panels.size(); ++i) panels[i]->draw(canvas, frame, style, states[i].get());
-    if (context.places.captions) draw_caption_band(canvas, context, *context.places.captions, frame);
-    if (clock) clock->draw(canvas, frame);
+    captions->draw(canvas, frame);
+    clock->draw(canvas, frame);
 }
 
 // Created on first use: a film that is only copied never draws.
@@ -190,7 +196,7 @@ void Film::draw(int frame, Image& out) { out = draw(frame); }
 FrameGeometry Film::geometry(int frame) {
     const Prepared& p = *prepared_;
     FrameRenderer& t = renderer_for(frame);
-    FrameGeometry out{p.context.places, {}, {}, p.background_texts, {}, {}};
+    FrameGeometry out{p.context.places, {}, {}, p.background_texts};
     Image scratch = p.background;
     Canvas canvas(scratch, t.fonts);
     p.context.outline(canvas);
@@ -199,9 +205,6 @@ FrameGeometry Film::geometry(int frame) {
     if (p.mechanism) {
         out.camera = p.mechanism->camera(frame);
         out.beam = p.mechanism->beam(frame);
-        out.legend = p.mechanism->legend();
-        canvas.record = nullptr;
-        out.labels = p.mechanism->labels(canvas, frame);
     }
     return out;
 }

@@ -87,12 +87,11 @@ struct FilmData {
 // Several motions: each in its own mechanism panel, or all in one panel, those after the first as outlines.
 enum class Comparison { panels, ghosts };
 
-// A caption and the frames that show it.
+// A caption and the frames that show it, unless a later one begins.
 struct Callout {
-    int first = 0, last = 0;            // frames
-    std::string text;                   // plain, with formulas between dollars
-    std::optional<Anchor> anchor = {};  // absent: the contact; all: the lower edge of the picture
-    int fade = 0;                       // frames of fading in, and of fading out
+    int first = 0, last = 0;  // frames
+    std::string text;         // plain, with formulas between dollars
+    int fade = 0;             // frames of fading in, and of fading out
 
     bool shown(int frame) const { return first <= frame && frame <= last; }
     double opacity(int frame) const {
@@ -112,7 +111,7 @@ struct Units {
 };
 
 struct FilmSetup : Motion {
-    std::string title;                // plain text; on two lines if long, truncated with an ellipsis if too long
+    std::string title;                // plain text; cut before an ellipsis if too long
     int width = 1920, height = 1080;  // [px], 1…16384
     View view;
     Units units;
@@ -139,8 +138,6 @@ struct FrameGeometry {
     Camera camera;
     DrawnBeam beam;
     std::vector<Box> texts;  // ink of every text [px]
-    // In the first mechanism: legend and scale bar; labels of angle, speed and force [px].
-    std::vector<Box> legend, labels;
 };
 
 // Counters of work done by all Films that share their prepared data.
@@ -175,8 +172,9 @@ class Film {
     bool exaggeration_reduced() const;  // below the requested factor, because the beam would enter the cam
     bool states_exaggeration() const;
     bool has_mechanism() const;
-    bool shows_captions() const;  // in the mechanism's panel or in a band of their own
-    bool title_truncated() const;
+    bool shows_captions() const;
+    bool shows_clock_line() const;                      // with exaggeration and speed
+    const std::vector<std::string>& cut_texts() const;  // "the title", "names", "captions"
     int empty_frames() const;  // frames in which the first mechanism is outside the camera's view
     const DrawingCounts& counts() const;
 

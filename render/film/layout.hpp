@@ -47,8 +47,8 @@ struct Shown {
     bool title = true, parameters = true, clock = true;
     bool legend = true;     // colour scales, exaggeration, playback speed
     bool accuracy = true;   // the note in the corner
-    bool labels = true;     // angle, speed, force, scale bar
-    bool captions = false;  // texts of events in a band of their own, in a picture without mechanism
+    bool labels = true;     // letters of angle, speed and force, peaks, scale bar
+    bool captions = false;  // texts of events, in a band below the panels
     double size = 1;        // scale factor of letters, lines and marks
     bool operator==(const Shown&) const = default;
 };
@@ -66,7 +66,7 @@ struct Layout {
     std::optional<Box> clock;     // and exaggeration and speed beside it
     std::optional<Box> scales;    // colour bars
     std::optional<Box> note;      // accuracy
-    std::optional<Box> captions;  // texts of events in a picture without mechanism
+    std::optional<Box> captions;  // texts of events
     std::vector<PanelSlot> panels;
 
     const PanelSlot* first(PanelKind kind) const;

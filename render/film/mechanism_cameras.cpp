@@ -80,19 +80,4 @@ std::optional<Perspective> MechanismCameras::perspective(const MechanismView& at
     return looking(at, yaw, pitch);
 }
 
-std::optional<Perspective> MechanismCameras::usual() const {
-    const View& view = home_.context.setup->view;
-    if (view.style != Style::solid) return std::nullopt;
-    return looking(home_, view.shot.yaw, view.shot.pitch);
-}
-
-std::vector<Perspective> MechanismCameras::projections() const {
-    const View& view = home_.context.setup->view;
-    if (view.style != Style::solid) return {};
-    std::vector<Perspective> out{*usual()};
-    for (const CameraMove& move : home_.context.setup->moves)
-        out.push_back(looking(home_, move.shot.yaw, move.shot.pitch));
-    return out;
-}
-
 }  // namespace beamcam::render

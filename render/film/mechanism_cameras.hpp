@@ -21,10 +21,6 @@ class MechanismCameras {
     MechanismView view(int frame) const;
     // Of the solid view; none in flat and lit films.
     std::optional<Perspective> perspective(const MechanismView& at, int frame) const;
-    // The usual projection; none in flat and lit films.
-    std::optional<Perspective> usual() const;
-    // The usual one, and those of the keyframes; empty in flat and lit films.
-    std::vector<Perspective> projections() const;
 
   private:
     void fit_solid_view();

@@ -11,61 +11,8 @@ namespace beamcam::render {
 namespace {
 
 using std::numbers::pi;
-constexpr double kFarLetter = 26;  // distance from which θ has a leader line [design px]
-constexpr double kFadeIn = 0.2;    // a leader line fades in over this share of its least length
 
 }  // namespace
-
-void draw_leader(const MechanismScene& s, const LabelPlace& label, const Box& text, Color color, Vec2 owner,
-                 Range lengths) {
-    const Vec2 edge = text.nearest(owner);
-    const double way = norm(owner - edge) / s.at.unit;
-    const double opacity = label.opacity_at(s.frame) * std::min(1.0, (way / lengths.low - 1) / kFadeIn);
-    if (opacity <= 0 || way > lengths.high) return;
-    const Vec2 gap = (owner - edge) * (6 / way);
-    s.canvas.line(edge + gap, owner - gap, {color.faded(0.6 * opacity), 1.2 * s.at.unit});
-}
-
-void draw_label(const MechanismScene& s, const LabelPlace& label, const std::string& text, TextStyle style, Vec2 base,
-                double indent) {
-    const double opacity = label.opacity_at(s.frame);
-    const Box box = s.label_box(label, base);
-    if (opacity <= 0) return;
-    style.color = style.color.faded(opacity);
-    // In the solid view a halo over soft shadows would glow; a near camera needs it.
-    if (!s.view || s.at.moved) style.halo = s.at.palette.paper.faded(opacity);
-    const double left = style.align == HAlign::centre ? box.centre().x : box.x;
-    s.canvas.text({left + indent, box.centre().y + 0.32 * style.size}, text, style);
-    if (s.labels) s.labels->push_back(box);
-}
-
-std::string speed_label(const MechanismView& at) {
-    return "$ω$\u2009=\u2009" + turning_speed(at.problem().cam->speed, at.context.setup->units.speed);
-}
-
-double speed_radius(const MechanismView& at) {
-    const sim::Cam& cam = *at.problem().cam;
-    return (cam.radius + cam.eccentricity) * at.look.camera.scale + speed_gap(at);
-}
-
-double speed_gap(const MechanismView& at) { return 20 * at.unit; }
-
-double speed_span(const MechanismView& at) { return std::min(0.8, 150 * at.unit / speed_radius(at)); }
-
-double drawn_angle(const sim::Pose& pose) { return std::fmod(pose.theta, 2 * pi); }
-
-std::vector<Vec2> angle_arc(const MechanismView& at, double radius, const sim::Pose& pose) {
-    constexpr int kPieces = 32;
-    std::vector<Vec2> out;
-    for (int i = 0; i <= kPieces; ++i)
-        out.push_back(at.px({0, 0}) + down(drawn_angle(pose) * i / kPieces) * (radius * at.zoom()));
-    return out;
-}
-
-std::vector<Vec2> angle_base(const MechanismView& at, double radius) {
-    const Vec2 start = at.px({0, 0}) + Vec2{radius * at.zoom(), 0};
-    return {start - Vec2{12 * at.unit, 0}, start + Vec2{26 * at.unit, 0}};
-}
 
 std::vector<Color> rim_colors(const MechanismView& at, const Trace& trace) {
     std::vector<Color> out(trace.rim().size(), Color{0, 0, 0, 0});
@@ -74,92 +21,6 @@ std::vector<Color> rim_colors(const MechanismView& at, const Trace& trace) {
         out[i] = force_color(at.palette, std::sqrt(std::min(1.0, double(trace.rim()[i]) / at.context.force_scale)));
     }
     return out;
-}
-
-// End of the arc of θ: in the solid view, where it is drawn over the beam, at the edge of that [rad].
-static double visible_angle(const MechanismScene& s, double radius) {
-    const double angle = drawn_angle(s.pose);
-    if (!s.view) return angle;
-    const double edge = (angle > 0 ? -s.beam.low : s.beam.high) * s.at.look.camera.scale;
-    const double hidden = std::asin(std::clamp(edge / radius, 0.0, 1.0));
-    return angle > 0 ? std::max(0.0, angle - hidden) : std::min(0.0, angle + hidden);
-}
-
-// A line [px] crosses the arc of θ.
-static bool crosses_angle_arc(const MechanismScene& s, Vec2 from, Vec2 to) {
-    const auto apart = [](Vec2 a, Vec2 b, Vec2 p, Vec2 q) { return cross(b - a, p - a) * cross(b - a, q - a) > 0; };
-    const std::vector<Vec2> arc = angle_arc(s.at, s.at.labels->arc_radius, s.pose);
-    for (std::size_t i = 0; i + 1 < arc.size(); ++i) {
-        const Vec2 a = s.on(arc[i]), b = s.on(arc[i + 1]);
-        if (!apart(a, b, from, to) && !apart(from, to, a, b)) return true;
-    }
-    return false;
-}
-
-// The angle has a place: outside the hub.
-static bool shows_angle(const MechanismView& at, double radius) {
-    return at.labelled() && radius * at.zoom() >= at.hub() + 22 * at.marks;
-}
-
-bool shows_angle_arc(const MechanismView& at, double radius, const sim::Pose& pose) {
-    return shows_angle(at, radius) && std::abs(drawn_angle(pose)) >= kLeastArc;
-}
-
-void draw_angle_arc(const MechanismScene& s) {
-    if (!shows_angle(s.at, s.at.labels->arc_radius)) return;
-    const double radius = s.at.labels->arc_radius * s.at.zoom(), angle = drawn_angle(s.pose);
-    const Vec2 o = s.at.px({0, 0});
-    if (std::abs(angle) >= kLeastArc) {
-        if (s.view) {
-            const std::vector<Vec2> base = angle_base(s.at, s.at.labels->arc_radius);
-            s.canvas.line(s.on(base[0]), s.on(base[1]), {s.at.palette.muted, 1.6 * s.at.unit, {}, Cap::butt});
-        }
-        s.arc(o, radius, 0, visible_angle(s, radius));
-        s.canvas.stroke({s.at.palette.muted, 1.6 * s.at.unit, {}, Cap::butt});
-    }
-    if (!s.at.labels->angle) return;
-    // A letter outside the sector of the angle gets a leader line to the start of the arc.
-    const LabelPlace& label = *s.at.labels->angle;
-    const Vec2 letter = s.at.px(label.base) + label.offset * s.at.zoom() - o;
-    const double sense = angle < 0 ? -1 : 1, way = std::atan2(-letter.y, letter.x) * sense;
-    const double turned = way < 0 ? way + 2 * pi : way;
-    const double foot = turned <= std::max(std::abs(angle), pi / 2) ? turned * sense : 0;
-    Vec2 owner = s.on(o + down(foot) * radius);
-    const Box text = s.label_box(label, label.base);
-    if (s.at.moved) {
-        const Vec2 middle = text.centre();
-        const std::vector<Vec2> arc = angle_arc(s.at, s.at.labels->arc_radius, s.pose);
-        owner = s.on(*std::ranges::min_element(arc, {}, [&](Vec2 p) { return norm(s.on(p) - middle); }));
-    }
-    draw_leader(s, label, text, s.at.palette.muted, owner, {kFarLetter, kLongestLeader});
-    draw_label(s, label, "$θ$", {.size = 21 * angle_letter(s.at), .color = s.at.palette.muted, .align = HAlign::centre},
-               label.base);
-}
-
-// Outside the circle that the disc sweeps, on a side away from the beam. Positive speed is clockwise.
-void draw_cam_speed(const MechanismScene& s) {
-    if (!s.at.problem().cam || !s.at.labelled()) return;
-    const sim::Cam& cam = *s.at.problem().cam;
-    const Vec2 axis = s.at.px(s.pose.cam_centre);
-    const double radius = speed_radius(s.at), middle = s.at.labels->speed_way;
-    if (!s.at.shows(s.on(axis + down(middle) * radius))) return;
-    if (cam.speed != 0) {
-        const double half = speed_span(s.at) / 2;
-        const double from = middle + (cam.speed > 0 ? half : -half), to = 2 * middle - from;
-        const double head = 17 * s.at.unit, back = (to < from ? 1 : -1) * 0.9 * head / radius;
-        s.arc(axis, radius, from, to + back);
-        s.canvas.stroke({s.at.palette.muted, 2.6 * s.at.unit, {}, Cap::butt});
-        const Vec2 tip = s.on(axis + down(to) * radius);
-        Vec2 way = tip - s.on(axis + down(to + back) * radius);
-        // Seen from aside, the head keeps its length.
-        if (const double length = norm(way); s.view && length > 0) way = way * (std::max(0.9 * head, length) / length);
-        s.canvas.arrow(tip - way, tip, {s.at.palette.muted, 2.6 * s.at.unit}, {head});
-    }
-    const LabelPlace& label = *s.at.labels->speed;
-    const Vec2 arrow = s.on(axis + down(middle) * radius);
-    const Box text = s.label_box(label, label.base);
-    if (!crosses_angle_arc(s, arrow, text.centre())) draw_leader(s, label, text, s.at.palette.muted, arrow);
-    draw_label(s, label, speed_label(s.at), {.size = label_size(s.at), .color = s.at.palette.muted}, label.base);
 }
 
 // The base line of the exaggerated deflection.
@@ -187,6 +48,12 @@ static Color ink_on_disc(const MechanismScene& s) {
     if (s.view) return s.at.palette.ink;
     if (dark && s.at.context.setup->view.style == Style::flat) return s.at.palette.paper;
     return dark ? rgb(0x14171D) : s.at.palette.steel_edge;
+}
+
+// Smallest size of single letters on a disc, which are recognized more easily than numbers [px].
+static double least_letter(const MechanismView& at) {
+    constexpr double kOfTicks = 0.75;
+    return std::max(kReadable, kOfTicks * at.context.tick);
 }
 
 // B and C are beyond the ends of the line between them or, on a small disc, on its two sides, and inside the disc.

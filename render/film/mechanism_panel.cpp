@@ -1,14 +1,15 @@
 #include "render/film/mechanism_panel.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
+#include "render/film/mechanism_labels.hpp"
+#include "render/film/mechanism_marks.hpp"
 #include "render/film/offscreen.hpp"
 
 namespace beamcam::render {
 namespace {
-
-using sim::Pose;
 
 using std::numbers::pi;
 
@@ -32,19 +33,34 @@ struct MechanismPanel::ThreadState final : FilmPanel::State {
 };
 
 MechanismPanel::MechanismPanel(const FilmContext& context, const PanelSlot& slot)
-    : at_(context, slot), legend_(at_), cameras_(at_) {
-    at_.labels = &labels_;
-    rings_.find(at_);
-    const double cell = std::max(1.5, 2 * at_.unit);
-    SweptRegion swept(at_, OccupancyGrid(at_.box, cell), cameras_.projections()), in_contact = swept;
-    add_survey(swept);
-    in_contact.add_fixed(), swept.add_fixed();
+    : at_(context, slot), legend_(at_), cameras_(at_), rings_(at_) {
     std::vector<Followed> followed;
-    const LabelNeeds needs = add_frames(swept, in_contact, followed);
+    Bounds seen;
+    for (int k = 0; k < context.frames(); ++k) {
+        const auto [pose, drawn, shape] = at_.drawn_frame(k);
+        const Vec2 tip = (shape.face.back() + shape.back.back()) * 0.5, at_tip = at_.look.camera.to_world(tip);
+        add_tips_before(k);
+        tip_path_.add_frame({pose.t, tip, pose.theta});
+        followed.push_back(
+            {at_tip, drawn.contact ? drawn.contact->on_disc : at_tip, at_.problem().cam ? pose.cam_centre : Vec2{}});
+        for (std::size_t i = 0; i < shape.face.size(); ++i) seen.add(shape.face[i]), seen.add(shape.back[i]);
+        seen.add(shape.hinge, shape.hub);
+        if (shape.disc) seen.add(shape.disc->centre, shape.disc->radius);
+    }
+    tip_path_.complete(at_);
     cameras_.follow(followed);
-    labels_ = place_labels(at_, cameras_, needs, swept, in_contact);
-    if (at_.member == 0) place_captions();
-    legend_.place(std::move(swept.room));
+    // Shadows fade out in the gap around the panel.
+    lit_box_ = lit_box(seen.box(), at_.box.inset(-std::floor(10 * at_.unit)), at_.unit);
+}
+
+// Between the previous frame and this one.
+void MechanismPanel::add_tips_before(int frame) {
+    if (frame == 0) return;
+    const std::vector<sim::Pose>& path = at_.motion().path;
+    const double from = at_.context.at(frame - 1), to = at_.context.at(frame);
+    for (auto pose = std::ranges::upper_bound(path, from, {}, &sim::Pose::t); pose != path.end() && pose->t < to;
+         ++pose)
+        tip_path_.add_between_frames(knot_of(at_, *pose));
 }
 
 std::unique_ptr<FilmPanel::State> MechanismPanel::make_state() const {
@@ -105,35 +121,30 @@ void MechanismPanel::draw(Canvas& canvas, int frame, Style style, State* state) 
     });
 }
 
-void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int frame, Style style, ThreadState& threads,
-                                 std::vector<Box>* labels) const {
+void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int frame, Style style,
+                                 ThreadState& threads) const {
     const auto [pose, drawn, shape] = at.drawn_frame(frame);
     threads.trace.advance_to(pose.t);
     const std::optional<Perspective> perspective = cameras_.perspective(at, frame);
-    const Perspective* view = perspective ? &*perspective : nullptr;
-    const std::optional<ForceArrow> arrow = force_arrow_of(pose, drawn, rings_.peak(frame, drawn));
-    const MechanismScene s{canvas, frame, pose, drawn, shape, at, view, arrow, labels};
+    const MechanismScene s{canvas, frame, pose, drawn, shape, at, perspective ? &*perspective : nullptr};
     if (at.ghosts) draw_ghost_bodies(s);
     if (!s.view) {
-        draw_angle_arc(s);
         draw_base_line(s);
+        draw_angle(s);
         draw_cam_speed(s);
     }
-    tip_path_.draw_trail(s, at_);  // over the halos of letters, which would interrupt it
+    tip_path_.draw_trail(s, at_);
     canvas.uncased([&] { draw_bodies(s, style, threads); });
-    draw_force_leader(s);  // over the beam, so that it reaches its arrow
-    if (s.view) {          // in the plane of the front of the beam: the mount must not hide them
-        draw_angle_arc(s);
-        draw_cam_speed(s);
-    }
     if (!s.view) canvas.uncased([&] { draw_beam_trace(s, threads.trace); });
     if (at.ghosts) draw_ghost_outlines(s);
     if (at.member == 0) draw_measured_beams(s);
+    if (s.view) {  // in the plane of the front of the beam: the mount must not hide them
+        draw_angle(s);
+        draw_cam_speed(s);
+    }
     rings_.draw(s);
     draw_disc_letters(s);  // over the rings, which would make them hard to read
-    if (at.member == 0) draw_caption_leaders(s);
-    draw_force(s);  // its label has a halo that interrupts these lines
-    if (at.member == 0) draw_captions(s);
+    draw_force(s);
 }
 
 void MechanismPanel::draw_bodies(const MechanismScene& s, Style style, ThreadState& threads) const {
@@ -151,22 +162,7 @@ void MechanismPanel::draw_bodies(const MechanismScene& s, Style style, ThreadSta
     if (s.shape.disc) draw_disc_marks(s, threads.trace);
 }
 
-// The camera and fading labels change while time is frozen.
-bool MechanismPanel::animates_while_paused(int frame) const {
-    if (cameras_.move_at(frame)) return true;
-    for (const auto* label : {&labels_.angle, &labels_.speed, &labels_.force})
-        if (*label && ((*label)->opacity_at(frame) != (*label)->opacity_at(frame - 1) ||
-                       !((*label)->offset_at(frame) == (*label)->offset_at(frame - 1))))
-            return true;
-    return false;
-}
-
-std::vector<Box> MechanismPanel::labels(Canvas& canvas, int frame) const {
-    std::vector<Box> out;
-    auto state = make_state();
-    draw_moving(canvas, cameras_.view(frame), frame, Style::flat, static_cast<ThreadState&>(*state), &out);
-    return out;
-}
+bool MechanismPanel::animates_while_paused(int frame) const { return cameras_.move_at(frame); }
 
 PanelType mechanism_panel() {
     return {

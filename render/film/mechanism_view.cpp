@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "render/film/mechanism_labels.hpp"
+
 namespace beamcam::render {
 MechanismView::MechanismView(const FilmContext& all, const PanelSlot& slot)
     : context(all),
@@ -16,17 +18,20 @@ MechanismView::MechanismView(const FilmContext& all, const PanelSlot& slot)
     look.unit = unit;
     look.factor = all.factor;
     look.moment_scale = all.moment_scale;
+    const bool measured = member == 0 && std::ranges::any_of(all.setup->data, [](const FilmData& data) {
+                              return data.find({sim::ChannelKind::theta, 0}) != nullptr;
+                          });
+    names = (all.members() > 1 || measured) && has_names(box, unit);
     place_camera();
     wide = std::clamp(0.06 * problem().beam.length * look.camera.scale, 18 * unit, 80 * unit);
+    arc_radius = render::arc_radius(*this);
 }
 
 // The camera shows the beam of every frame, the circle that the disc sweeps, and the support.
 void MechanismView::place_camera() {
     // A beam thinner than a line is drawn with the width of a line, which it gains on the side away from the cam.
     const auto as_deep_as = [&](const ViewExtent& extent) {
-        // Names of several mechanisms are above them, in one line.
-        const bool named = context.members() > 1 && !ghosts && has_names(box, unit);
-        const double label = !named ? 0 : (box.h > 200 * unit ? 38 : 28) * unit;
+        const double label = !names ? 0 : (box.h > 200 * unit ? 38 : 28) * unit;
         look.camera = extent.camera({box.x, box.y + label, box.w, box.h - label}, unit);
         look.depth = std::max(beam_depth(problem().beam), 7 * unit / look.camera.scale);
     };
@@ -61,27 +66,6 @@ DrawnPose MechanismView::drawn_pose(int whose, sim::Pose pose) const {
     DrawnBeam beam = drawn(whose, pose);
     MechanismShape shape = mechanism_shape(context.motion(whose).problem, pose, beam, look, palette);
     return {std::move(pose), std::move(beam), std::move(shape)};
-}
-
-Box MechanismView::label_area() const {
-    const Box all = box.inset(4 * unit);
-    const double bar = context.setup->view.style == Style::solid ? 0 : 34 * unit;
-    return {all.x, all.y, all.w, all.h - bar};
-}
-
-Box MechanismView::label_box(const LabelPlace& label, const Perspective* view, std::optional<Vec2> base,
-                             std::optional<int> frame) const {
-    const Vec2 middle = seen(px(moved ? base.value_or(label.base) : label.base), view) +
-                        (frame ? label.offset_at(*frame) : label.offset);
-    const Box place{middle.x - label.size.x / 2, middle.y - label.size.y / 2, label.size.x, label.size.y};
-    return moved ? inside_view(place) : place;
-}
-
-Box MechanismView::inside_view(Box label) const {
-    const Box within = label_area();
-    label.x = std::max(within.x, std::min(label.x, within.right() - label.w));
-    label.y = std::max(within.y, std::min(label.y, within.bottom() - label.h));
-    return label;
 }
 
 void MechanismScene::arc(Vec2 centre, double radius, double from, double to) const {

@@ -4,7 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include "render/film/mechanism_labels.hpp"
 #include "render/film/panel.hpp"
 #include "render/gl/solid.hpp"
 #include "render/mechanism/mechanism.hpp"
@@ -40,8 +39,9 @@ struct MechanismView {
         return !moved || (px.x > box.x && px.x < box.right() && px.y > box.y && px.y < box.bottom());
     }
     double hub() const { return hub_radius(problem(), look.camera, look.unit); }
-    const MechanismLabels* labels = nullptr;  // null: not yet placed
-    bool moved = false;                       // the camera is not the one that shows everything
+    bool moved = false;                // the camera is not the one that shows everything
+    bool names = false;                // a row above the mechanism names motions
+    std::optional<double> arc_radius;  // of θ, before the camera that shows everything [px]
 
     const Motion& motion() const { return context.motion(member); }
     const sim::Problem& problem() const { return motion().problem; }
@@ -53,13 +53,6 @@ struct MechanismView {
     DrawnPose drawn_pose(int whose, sim::Pose pose) const;
     DrawnPose drawn_frame(int frame) const { return drawn_pose(member, context.pose(member, frame)); }
     DrawnBeam beam_of(int whose, int frame) const { return drawn(whose, context.pose(whose, frame)); }
-    // Where a moving camera shows labels: above the scale bar, which the solid view has not.
-    Box label_area() const;
-    // Box of a label in this view. It keeps its distance in pixels from its base or, with a moving camera, from `base`
-    // [m]; a moving camera shifts it in each `frame`, and keeps it inside the view.
-    Box label_box(const LabelPlace& label, const Perspective* view, std::optional<Vec2> base = {},
-                  std::optional<int> frame = {}) const;
-    Box inside_view(Box label) const;
 
   private:
     void place_camera();
@@ -73,13 +66,10 @@ struct MechanismScene {
     const DrawnBeam& beam;
     const MechanismShape& shape;
     const MechanismView& at;
-    const Perspective* view;               // of the solid view; null: flat or lit
-    std::optional<ForceArrow> arrow = {};  // the displayed force
-    std::vector<Box>* labels = nullptr;    // collects the boxes of drawn labels
+    const Perspective* view;  // of the solid view; null: flat or lit
 
     Vec2 on(Vec2 flat) const { return at.seen(flat, view); }
     Vec2 px(Vec2 world) const { return on(at.px(world)); }
-    Box label_box(const LabelPlace& label, Vec2 base) const { return at.label_box(label, view, base, frame); }
     void arc(Vec2 flat_centre, double radius, double from, double to) const;
 };
 

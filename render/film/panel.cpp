@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "render/base/error.hpp"
-#include "render/film/impact_rings.hpp"
 #include "render/mechanism/exaggeration.hpp"
 #include "render/plot/ticks.hpp"
 #include "render/plot/user_text.hpp"
@@ -94,6 +93,7 @@ FilmContext::FilmContext(std::shared_ptr<const FilmSetup> s) : setup(std::move(s
     palette = &colors;
     Shown shown = setup->view.show;
     shown.title = shown.title && !setup->title.empty();
+    shown.captions = !setup->callouts.empty();
     std::string written = setup->title + setup->accuracy_note;
     for (const Callout& c : setup->callouts) written += c.text;
     for (int m = 0; m < members(); ++m) written += motion(m).label;
@@ -111,13 +111,11 @@ FilmContext::FilmContext(std::shared_ptr<const FilmSetup> s) : setup(std::move(s
     }
     choose_scales();
     const int mechanisms = setup->comparison == Comparison::panels ? members() : 1;
-    if (setup->layout) places = user_places(shown);
+    if (setup->layout) places = layout(setup->width, setup->height, *setup->layout, shown);
     if (!setup->layout || places.first(PanelKind::mechanism)) extent = view_extent_of(*this);
     if (!setup->layout) places = layout(setup->width, setup->height, standard(*setup), mechanisms, extent, shown);
     unit = places.unit;
     tick = places.tick;
-    arrow_scale = frame_force;
-    for (const PanelSlot& slot : places.panels) arrow_scale = std::max(arrow_scale, largest_held_peak(*this, slot));
     span = {times.front(), times.back()};
     if (const auto* t = column(setup->chart, {ChannelKind::t, 0}); t && !t->empty()) {
         span.low = std::min(span.low, *std::ranges::min_element(*t));
@@ -125,15 +123,6 @@ FilmContext::FilmContext(std::shared_ptr<const FilmSetup> s) : setup(std::move(s
     }
     time = time_format(times, span.high);
     if (!(span.high > span.low)) span.high = span.low + time.unit;  // a single instant
-}
-
-// Captions get a band of their own if there is no mechanism to show them, unless a panel would no longer fit.
-Layout FilmContext::user_places(Shown shown) const {
-    Layout out = layout(setup->width, setup->height, *setup->layout, shown);
-    if (setup->callouts.empty() || out.first(PanelKind::mechanism)) return out;
-    shown.captions = true;
-    Layout with = layout(setup->width, setup->height, *setup->layout, shown);
-    return with.panels.size() == out.panels.size() && !with.first(PanelKind::mechanism) ? with : out;
 }
 
 SpeedUnit Units::speed_in_charts() const {

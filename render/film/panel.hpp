@@ -37,8 +37,7 @@ struct FilmContext {
     double factor = 1;                              // exaggeration of deflection, the same for all motions
     double largest_force = 0;                       // of the film [N]
     double force_scale = 0;                         // largest force of the film, rounded up; 0: no force [N]
-    double frame_force = 0;                         // largest force of all frames [N]
-    double arrow_scale = 0;                         // largest force of an arrow, peaks that are held included [N]
+    double frame_force = 0;                         // largest force of all frames, that of the longest arrow [N]
     double moment_scale = 0;                        // end of the colour scale; 0: no colouring [N m]
     ViewExtent extent;                              // of all mechanisms
     std::vector<double> times;                      // of the frames, the same for all motions [s]
@@ -82,7 +81,6 @@ struct FilmContext {
   private:
     void check() const;
     void choose_scales();
-    Layout user_places(Shown shown) const;
 };
 
 using sim::kNan;
@@ -96,6 +94,8 @@ class FilmPanel {
 
     virtual std::unique_ptr<State> make_state() const { return nullptr; }
     virtual void draw_background(Canvas& canvas) const = 0;
+
+    virtual bool cuts_names() const { return false; }  // of motions
 
     // The panel changes between the previous frame and this one even if both show the same instant.
     virtual bool animates_while_paused(int) const { return false; }

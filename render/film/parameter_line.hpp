@@ -1,7 +1,6 @@
-// The line of parameters below the title: whole items, the most important first.
-//
-// If they do not fit, gaps shrink, then letters; then the rest goes beside the title if there is space; then the least
-// important items are omitted. The omitted ones are known before anything is drawn.
+// The title, and the line of parameters below it: whole items, the most important first. Letters have two sizes; where
+// the smaller one has no room, a title ends with an ellipsis, and the last parameters are left out. What is left out is
+// known before anything is drawn.
 #pragma once
 
 #include <string>
@@ -10,6 +9,7 @@
 #include "render/draw/canvas.hpp"
 #include "render/film/layout.hpp"
 #include "render/plot/labels.hpp"
+#include "render/plot/user_text.hpp"
 #include "sim/problem/problem.hpp"
 
 namespace beamcam::render {
@@ -24,24 +24,12 @@ struct ParameterLine {
     std::vector<std::string> omitted;  // markup
 };
 
-// `canvas` is only used for measuring. `title`: plain text.
-ParameterLine parameter_line(Canvas& canvas, const Layout& places, const std::string& title,
-                             const std::vector<std::string>& pieces);
+// `canvas` is only used for measuring.
+ParameterLine parameter_line(const Canvas& canvas, const Layout& places, const std::vector<std::string>& pieces);
 
 // Style of the title at full size.
 TextStyle title_style(double unit, Color color = {});
-// A long title (plain text) gets smaller letters, down to two thirds; then two lines; then it is truncated at the end
-// of the second line.
-struct FittedTitle {
-    struct Line {
-        std::string markup;
-        Vec2 baseline;
-    };
-    TextStyle style;
-    std::vector<Line> lines;
-    bool cut = false;
-};
-FittedTitle fitted_title(Canvas& canvas, const std::string& title, const Box& box, double unit, Color color = {});
+FittedText fitted_title(const Canvas& canvas, const std::string& title, const Box& box, double unit);
 
 // The texts for which a picture of this size, with this layout or the standard one of `members` mechanisms, has no
 // space: "the title" or "the end of the title", parameters, "colour scales". Loads fonts, unless there is no space for

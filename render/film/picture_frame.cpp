@@ -11,7 +11,7 @@ constexpr double kSmallestUnit = 0.5;  // 16 design pixels of text are 8 px, the
 constexpr double kTickShare = 0.0204, kLeastTick = 17, kMostTick = 26;  // of the shorter side; [design px]
 
 constexpr double kScales = 560;      // width of two colour scales [design px]
-constexpr double kCaptionBand = 75;  // height: two lines of captions [design px]
+constexpr double kCaptionBand = 48;  // height [design px]
 
 }  // namespace
 
@@ -74,7 +74,7 @@ PictureFrame picture_frame(int width, int height, bool beside, const Shown& show
     }
     if (has_title || has_parameters) f.top += 10 * u;
     if (has_clock) f.bottom -= 10 * u;
-    if (shown.captions) {
+    if (shown.captions && w >= 230 * u && h >= 190 * u) {
         out.captions = Box{margin, f.bottom - kCaptionBand * u, w - 2 * margin, kCaptionBand * u};
         f.bottom -= (kCaptionBand + 10) * u;
     }

@@ -145,8 +145,10 @@ class ArrangedLayout {
         // In wide pictures, which lack height, the column starts beside the title.
         const double top = frame_.wide && beside_ ? frame_.margin * 0.8 : frame_.top;
         const double highest = (frame_.wide ? 440 : 660) / std::min(1.0, size_);
-        stack(out_, side_, {frame_.right - column, top, column, frame_.bottom - top - 6 * u_}, highest);
+        const double bottom = out_.captions ? out_.captions->bottom() : frame_.bottom;
+        stack(out_, side_, {frame_.right - column, top, column, bottom - top - 6 * u_}, highest);
         room_.w -= column + gap;
+        if (out_.captions) out_.captions->w = room_.w;  // they are below the mechanism
         if (frame_.wide && beside_ && out_.title) out_.title->w = room_.right() - out_.title->x;
         return true;
     }

@@ -22,7 +22,7 @@ bool has_names(const Box& box, double u) { return box.w >= 110 * u; }
 
 double force_arrow_length(double share, bool small, double u) { return (small ? 60 : 150) * u * share; }
 
-double force_label_distance(double length, double depth, double u) { return std::max(length, depth + 26 * u); }
+double force_label_distance(double length, double depth, double u) { return std::max(length, depth + 10 * u) + 18 * u; }
 
 // [m], with the parts that have sizes in pixels at this scale [px/m]; scale 0: without them.
 Bounds ViewExtent::shown(double scale, double u, bool small) const {

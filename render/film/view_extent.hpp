@@ -44,7 +44,7 @@ bool is_small(const Box& box, double unit);
 bool has_names(const Box& box, double unit);
 // Length of the arrow of a force with this fraction of the film's largest [px]. `marks`: mark_unit.
 double force_arrow_length(double share, bool small, double marks);
-// Distance of the label from the contact, clear of a beam of this depth [px].
+// Distance of the letter of a force from the contact, clear of the arrow and of a beam of this depth [px].
 double force_label_distance(double length, double depth, double unit);
 
 // The extent of all motions of a film, with beams drawn at least this deep [m]; for a still, the extent at its instant,

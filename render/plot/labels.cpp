@@ -100,6 +100,7 @@ std::vector<std::string> parameter_pieces(const sim::Problem& problem, SpeedUnit
     if (problem.cam) {
         out.push_back(equation("R", quantity(problem.cam->radius, "m")));
         out.push_back(equation("e", quantity(problem.cam->eccentricity, "m")));
+        if (problem.cam->speed != 0) out.push_back(equation("ω", turning_speed(problem.cam->speed, unit)));
     }
     if (problem.beam.model == sim::ModelKind::rigid)
         out.push_back("rigid beam");

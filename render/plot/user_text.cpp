@@ -3,9 +3,9 @@
 #include <pango/pango.h>
 
 #include <algorithm>
-#include <array>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "render/base/error.hpp"
 #include "render/draw/markup.hpp"
@@ -55,77 +55,6 @@ std::string problem_of(std::string_view formula) {
     }
 }
 
-struct Piece {
-    std::string text;  // without the spaces or the new line behind it
-    std::string space;
-    bool ends_line = false;
-};
-
-// A formula in parts that begin with a sign between spaces, outside of braces: "$a$", "$= b$", "$+ c$".
-std::vector<std::string> parts_of(std::string_view formula) {
-    std::vector<std::string> parts(1);
-    int depth = 0;
-    for (std::size_t i = 0; i < formula.size(); ++i) {
-        const char c = formula[i];
-        depth += c == '{' ? 1 : c == '}' ? -1 : 0;
-        const bool sign = c == ' ' && i + 2 < formula.size() && formula[i + 2] == ' ' &&
-                          std::string_view("=+-<>").find(formula[i + 1]) != std::string_view::npos;
-        if (sign && depth == 0)
-            parts.back() += '$', parts.emplace_back("$");
-        else
-            parts.back() += c;
-    }
-    return parts;
-}
-
-// Joins two texts; parts of one formula become one again.
-std::string joined(const std::string& before, const std::string& space, const std::string& after) {
-    const bool formula = before.ends_with('$') && !before.ends_with("\\$") && space == " " &&
-                         std::ranges::any_of(std::array{"$= ", "$+ ", "$- ", "$< ", "$> "},
-                                             [&](const char* sign) { return after.starts_with(sign); });
-    return formula ? before.substr(0, before.size() - 1) + space + after.substr(1) : before + space + after;
-}
-
-// The unbreakable pieces. For Unicode a formula, or each of its parts, is one letter.
-std::vector<Piece> pieces(const std::string& text, bool parts_of_formulas = false) {
-    std::string letters;
-    std::vector<std::string> meant;  // by each of them
-    const auto add = [&](std::string_view one, std::string_view meaning) {
-        letters += one;
-        meant.emplace_back(meaning);
-    };
-    split(
-        text,
-        [&](const std::string& plain) {
-            for (const char* c = plain.data(); c < plain.data() + plain.size(); c = g_utf8_next_char(c)) {
-                const std::string_view one(c, std::size_t(g_utf8_next_char(c) - c));
-                add(one, one == "$" ? "\\$" : one);
-            }
-        },
-        [&](std::string_view formula) {
-            std::vector<std::string> parts{std::string(formula)};
-            if (parts_of_formulas && problem_of(formula).empty()) parts = parts_of(formula);
-            for (std::size_t i = 0; i < parts.size(); ++i) {
-                if (i > 0) add(" ", " ");
-                add("x", parts[i]);
-            }
-        });
-    std::vector<PangoLogAttr> at(meant.size() + 1);
-    pango_get_log_attrs(letters.data(), static_cast<int>(letters.size()), -1, pango_language_from_string("en"),
-                        at.data(), static_cast<int>(at.size()));
-    std::vector<Piece> out(1);
-    for (std::size_t i = 0; i < meant.size(); ++i) {
-        if (i > 0 && at[i].is_line_break) out.emplace_back();
-        Piece& piece = out.back();
-        piece.ends_line = at[i + 1].is_mandatory_break && i + 1 < meant.size();
-        if (meant[i] == " ") piece.space += ' ';
-        if (meant[i] == " " || meant[i] == "\n") continue;
-        piece.text += piece.space + meant[i];
-        piece.space.clear();
-    }
-    return out;
-}
-
 }  // namespace
 
 std::string text_markup(std::string_view text) {
@@ -165,49 +94,29 @@ std::string markup_problem(std::string_view text) {
     return first;
 }
 
-std::vector<std::string> wrapped_lines(const Canvas& canvas, std::string_view text, const TextStyle& style,
-                                       std::size_t most) {
-    TextStyle natural = style;
-    natural.max_width = 0;
-    std::vector<std::string> lines;
-    std::string line, space;
-    const auto end_line = [&] {
-        lines.push_back(text_markup(line));
-        line.clear(), space.clear();
+FittedText fitted_text(const Canvas& canvas, std::string_view text, TextStyle style, double smaller, double room) {
+    std::string line(text);
+    std::ranges::replace(line, '\n', ' ');
+    FittedText out{text_markup(line), style.size};
+    const auto fits = [&](const std::string& markup) { return canvas.measure(markup, style).w <= room; };
+    if (fits(out.markup)) return out;
+    style.size = out.size = smaller;
+    if (fits(out.markup)) return out;
+    std::vector<std::string> begun{"…"};  // plain text is cut between letters, a formula is left out whole
+    const auto add = [&](std::string_view markup) {
+        const std::string before = begun.back().substr(0, begun.back().size() - std::string_view("…").size());
+        begun.push_back(before + std::string(markup) + "…");
     };
-    const auto is_wide = [&](const std::string& some) {
-        return canvas.measure(text_markup(some), natural).w > style.max_width;
-    };
-    std::vector<Piece> all;
-    for (const Piece& piece : pieces(std::string(text))) {
-        all.push_back(piece);
-        if (style.max_width <= 0 || !is_wide(piece.text)) continue;
-        all.pop_back();  // a formula longer than a line
-        for (const Piece& part : pieces(piece.text, true)) all.push_back(part);
-        all.back().space = piece.space, all.back().ends_line = piece.ends_line;
-    }
-    for (const Piece& piece : all) {
-        const std::string longer = joined(line, space, piece.text);
-        const bool last = lines.size() + 1 == most;
-        if (!last && !line.empty() && is_wide(longer)) {
-            end_line();
-            line = piece.text;
-        } else {
-            line = longer;
-        }
-        space = piece.space;
-        if (piece.ends_line && lines.size() + 1 < most) end_line();
-    }
-    // An ellipsis cuts plain text where it is drawn, but no formula.
-    const auto too_long = [&] { return style.max_width > 0 && line.find('$') != std::string::npos && is_wide(line); };
-    for (std::vector<Piece> left = pieces(line, true); left.size() > 1 && too_long();) {
-        left.pop_back();
-        line.clear(), space.clear();
-        for (const Piece& piece : left) line = joined(line, space, piece.text), space = piece.space;
-        line += " …";
-    }
-    if (!line.empty()) end_line();
-    return lines;
+    split(
+        line,
+        [&](const std::string& plain) {
+            for (const char* c = plain.data(); c < plain.data() + plain.size(); c = g_utf8_next_char(c))
+                add(escaped({c, std::size_t(g_utf8_next_char(c) - c)}));
+        },
+        [&](std::string_view formula) { add(text_markup(formula)); });
+    out.cut = true;
+    out.markup = *std::prev(std::ranges::partition_point(begun.begin() + 1, begun.end(), fits));
+    return out;
 }
 
 }  // namespace beamcam::render

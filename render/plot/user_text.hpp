@@ -1,10 +1,8 @@
-// User text as markup (render/draw/markup.hpp). Lines break where Unicode allows it: between words, and between the
-// characters of scripts without spaces, never in a formula.
+// User text as markup (render/draw/markup.hpp).
 #pragma once
 
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "render/draw/canvas.hpp"
 #include "render/draw/markup.hpp"
@@ -22,9 +20,13 @@ std::string characters_without_font(std::string_view text);
 // Why a formula cannot be parsed; empty: all can.
 std::string markup_problem(std::string_view text);
 
-// Markup of the lines of a text, none wider than `style.max_width` [px] if it can be broken; at most `most` lines, the
-// last with the rest of the text.
-std::vector<std::string> wrapped_lines(const Canvas& canvas, std::string_view text, const TextStyle& style,
-                                       std::size_t most);
+// A text (plain, with formulas) on one line.
+struct FittedText {
+    std::string markup;
+    double size = 0;   // of the letters [px]
+    bool cut = false;  // it ends with an ellipsis
+};
+// In the size of the style where there is room for it, else in the smaller one, else its beginning in that one.
+FittedText fitted_text(const Canvas& canvas, std::string_view text, TextStyle style, double smaller, double room);
 
 }  // namespace beamcam::render

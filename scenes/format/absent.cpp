@@ -48,6 +48,7 @@ constexpr Absent kAbsent[] = {
      "give the cross-section as \"area\" and \"second_moment\": b h and b h^3/12 for a rectangle of width b, π d^2/4 "
      "and π d^4/64 for a rod"},
     {WordKind::key, "beam.material cam.material", "give the material as \"density\" and \"youngs_modulus\""},
+    {WordKind::key, "anchor", "it was withdrawn: texts are in a band below the panels; remove the key"},
     {WordKind::key, "subtitles chapters", "it was withdrawn; \"events\" show texts in the film, ffmpeg adds subtitles"},
     {WordKind::key, "collision", "it was withdrawn; write \"from\": \"collision:3\", \"to\": \"liftoff:3\""},
     {WordKind::key, "layer", "it was withdrawn; \"show\" and \"layout\" choose what a film shows"},

@@ -88,12 +88,6 @@ void check_span(ObjectReader& r, const FrameSpan& span, const Picture& picture) 
         return r.reject_object("to", ": {}", problem);
     if (span.to) check_end(r, "to", *span.to);
     check_instants(r, span, picture.view, span.to.value_or(r.context().scene.end_time));
-    const sim::Problem& shown = picture.compare.empty() ? r.context().scene.problem : picture.compare.front().problem;
-    for (std::size_t i = 0; i < span.events.size() && !shown.cam; ++i)
-        if (const auto& anchor = span.events[i].anchor; anchor && needs_cam(*anchor)) {
-            const std::string key = fmt::format("events.{}.anchor", i);
-            r.reject(key, ": the scene has no cam; anchor the text to the tip, the hub or a place");
-        }
 }
 
 void set_default_codec(PictureOutput& video) {

@@ -62,7 +62,7 @@ static void visit(SceneVisitor& v, render::Shown& show) {
     v.boolean("clock", show.clock, "The clock.");
     v.boolean("legend", show.legend, "Colour scales, and the factors of deflection and time.");
     v.boolean("accuracy", show.accuracy, "Tolerance and error of the energy balance, in the corner.");
-    v.boolean("labels", show.labels, "Names, numbers and scale bar in the mechanism.");
+    v.boolean("labels", show.labels, "Letters and scale bar in the mechanism, peaks of forces beside the clock.");
 }
 
 void visit_theme(SceneVisitor& v, View& view) {
@@ -153,16 +153,14 @@ static void visit(SceneVisitor& v, Speed& speed) {
 static void visit(SceneVisitor& v, FilmEvent& event) {
     v.value(required("at", "\"impact:1\""), instant_format(event.at), "The instant.");
     v.number("freeze", event.freeze, dim::kTime, kNotNegative, "The picture freezes for this time, in film time.");
-    v.text("text", event.text, "Text beside the contact; formulas as in the title.");
-    v.value(
-        "anchor", anchor_format(event.anchor),
-        "The point beside the text, connected by a line; by default the contact. all: the text is at the lower edge.");
+    v.text("text", event.text, "Text in the band below the panels; formulas as in the title.");
     v.number(written_if(event.fade > 0, "fade"), event.fade, dim::kTime, kNotNegative,
              "Time of fading in and out, in film time.");
     v.check([&event](ObjectReader& r) { check_words(r, "text", event.text); });
-    v.number("show", event.show, dim::kTime, kNotNegative,
-             "Duration of the text in film time, at least the duration of the freeze. By default 1.5 s, or until the "
-             "next text.");
+    v.number(
+        "show", event.show, dim::kTime, kNotNegative,
+        "Duration of the text in film time, at least the duration of the freeze; the next text ends it. By default "
+        "1.5 s.");
 }
 
 void visit_bounds(SceneVisitor& v, FrameSpan& span) {

@@ -243,8 +243,12 @@ void SceneRun::write_pictures(const Pictures& p) {
                        film.exaggeration());
     if (!p.times.callouts.empty() && !film.shows_captions())
         context_.print("warning: {} shows no texts of events: {}\n", p.file, why_text_is_omitted(p.size));
-    if (film.title_truncated())
-        context_.print("warning: {} shows only the beginning of the title: {}\n", p.file, why_text_is_omitted(p.size));
+    if (!film.shows_clock_line())
+        context_.print("warning: {} shows only a part of the line of the clock: {}\n", p.file,
+                       why_text_is_omitted(p.size));
+    if (!film.cut_texts().empty())
+        context_.print("warning: {} shows only the beginning of {}: {}\n", p.file, fmt::join(film.cut_texts(), " and "),
+                       why_text_is_omitted(p.size));
     if (const int empty = film.empty_frames(); empty > 0)
         context_.print(
             "warning: the mechanism is outside the picture in {1} of {2} of {0}; change \"follow\" or \"zoom\"\n",

@@ -15,11 +15,13 @@ using sim::ChannelKind;
 const std::vector<sim::Channel> kTraceChannels = {
     {ChannelKind::t, 0}, {ChannelKind::contact_x, 0}, {ChannelKind::contact_s, 0}, {ChannelKind::contact_force, 0}};
 
-std::string omitted_panels(const Picture& picture) {
+std::string omitted_panels(const Pictures& picture) {
     std::string out;
     if (!picture.layout) return out;
+    render::Shown shown = picture.view.show;
+    shown.captions = !picture.times.callouts.empty();
     for (const render::PanelSpec& panel :
-         render::omitted_panels(picture.size.width, picture.size.height, *picture.layout, picture.view.show))
+         render::omitted_panels(picture.size.width, picture.size.height, *picture.layout, shown))
         out += (out.empty() ? "" : ", ") +
                (panel.channels.empty() ? std::string(type_of(panel.kind).name) : name(panel.channels.front()));
     return out;

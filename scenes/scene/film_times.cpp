@@ -73,11 +73,10 @@ struct ShownEvent {
     double t;
 };
 
-// A text without a duration ends when the next one begins.
+// A text ends when the next one begins.
 std::vector<render::Callout> callouts_of(const std::vector<ShownEvent>& shown, const TimeMap& map, double fps) {
     constexpr double kDefaultDuration = 1.5;  // [s]
     std::vector<render::Callout> out;
-    std::vector<const FilmEvent*> events;
     for (std::size_t i = 0; i < shown.size(); ++i) {
         const auto& [event, t] = shown[i];
         if (event->text.empty()) continue;
@@ -88,12 +87,11 @@ std::vector<render::Callout> callouts_of(const std::vector<ShownEvent>& shown, c
         const int first = static_cast<int>(std::ceil(from * fps - 1e-6)),
                   last = static_cast<int>(std::floor((from + length) * fps + 1e-6));
         const int fade = std::min(static_cast<int>(std::lround(event->fade * fps)), (last - first) / 2);
-        out.push_back({first, last, event->text, event->anchor, std::max(fade, 0)});
-        events.push_back(event);
+        out.push_back({first, last, event->text, std::max(fade, 0)});
     }
-    for (std::size_t i = 0; i < out.size(); ++i)
+    for (render::Callout& each : out)
         for (const render::Callout& next : out)
-            if (!events[i]->show && next.first > out[i].first) out[i].last = std::min(out[i].last, next.first - 1);
+            if (next.first > each.first) each.last = std::min(each.last, next.first - 1);
     return out;
 }
 

@@ -71,11 +71,10 @@ struct Speed {
 // A freeze or a text of a film at an instant.
 struct FilmEvent {
     Instant at;
-    double freeze = 0;                          // [s] of the film
-    std::string text;                           // plain, with formulas between dollars
-    std::optional<double> show = {};            // [s] of the film; nullopt: 1.5 s, or until the next text
-    std::optional<render::Anchor> anchor = {};  // of the text
-    double fade = 0;                            // duration of fading in and out [s] of the film
+    double freeze = 0;                // [s] of the film
+    std::string text;                 // plain, with formulas between dollars
+    std::optional<double> show = {};  // until the next text at most [s of the film]; nullopt: 1.5 s
+    double fade = 0;                  // duration of fading in and out [s of the film]
 };
 
 // One motion of a comparison: the mechanics of this or another scene with changes.

@@ -1,4 +1,5 @@
-// Captions of pictures without a mechanism.
+#include "render/film/caption_band.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,36 +18,47 @@ FilmSetup charts_only() {
     return setup;
 }
 
-TEST(CaptionBand, ShowsTextsBelowTheCharts) {
-    FilmSetup setup = charts_only();
-    const FrameGeometry without = Film(setup).geometry(20);
-    EXPECT_FALSE(without.layout.captions);
-    setup.callouts = {{10, 40, "first contact"}, {15, 40, "$\\dot\\theta$ changes its sign"}};
-    Film film(setup);
-    EXPECT_TRUE(film.shows_captions());
-    const FrameGeometry g = film.geometry(20);
-    ASSERT_TRUE(g.layout.captions);
-    const Box band = *g.layout.captions;
-    EXPECT_FALSE(band.overlaps(g.layout.panels.front().box));
-    EXPECT_FALSE(band.overlaps(*g.layout.clock));
-    EXPECT_EQ(std::ranges::count_if(g.texts, [&](const Box& text) { return band.contains(text); }), 2);
-    EXPECT_GT(differing_pixels(drawn(film, 5), drawn(film, 20), band), 100);
-    EXPECT_EQ(differing_pixels(drawn(film, 5), drawn(film, 50), band), 0);
+TEST(CaptionBand, ShowsOneTextAtATimeBelowThePanels) {
+    for (FilmSetup setup : {charts_only(), test::flat_film({.duration = 1}, 1280, 720)}) {
+        EXPECT_FALSE(Film(setup).geometry(20).layout.captions);
+        setup.callouts = {{10, 40, "first contact"}, {15, 30, "$\\dot\\theta$ changes its sign"}};
+        Film film(setup);
+        EXPECT_TRUE(film.shows_captions());
+        const FrameGeometry g = film.geometry(20);
+        ASSERT_TRUE(g.layout.captions);
+        const Box band = *g.layout.captions;
+        for (const PanelSlot& slot : g.layout.panels) EXPECT_FALSE(band.overlaps(slot.box));
+        EXPECT_FALSE(band.overlaps(*g.layout.clock));
+        EXPECT_EQ(std::ranges::count_if(g.texts, [&](const Box& text) { return band.contains(text); }), 1);
+        EXPECT_GT(differing_pixels(drawn(film, 5), drawn(film, 20), band), 100);
+        EXPECT_GT(differing_pixels(drawn(film, 12), drawn(film, 20), band), 100);
+        EXPECT_EQ(differing_pixels(drawn(film, 5), drawn(film, 50), band), 0);
+    }
 }
 
-TEST(CaptionBand, LongTextsStayWithinIt) {
+// 22 px in a picture of 720 lines.
+TEST(CaptionBand, HasLargeLettersThenSmallOnesThenAnEllipsis) {
     FilmSetup setup = charts_only();
-    for (int i = 0; i < 3; ++i)
-        setup.callouts.push_back({0, 40, "a text that is so long that it needs two lines beside the others"});
-    const FrameGeometry g = Film(setup).geometry(20);
-    const Box band = *g.layout.captions;
-    int inside = 0;
-    for (const Box& text : g.texts) {
-        if (!text.overlaps(band)) continue;
-        ++inside;
-        EXPECT_TRUE(band.contains(text)) << text.x << ", " << text.w;
+    const std::string words = "words that are shown in the band below the panels of a film ";
+    for (const auto& [text, cut] : {std::pair{words, false}, {words + words, false}, {words + words + words, true}}) {
+        setup.callouts = {{0, 40, text}};
+        Film film(setup);
+        EXPECT_EQ(film.cut_texts(), cut ? std::vector<std::string>{"captions"} : std::vector<std::string>{}) << text;
+        const FrameGeometry g = film.geometry(20);
+        const auto caption =
+            std::ranges::find_if(g.texts, [&](const Box& b) { return b.overlaps(*g.layout.captions); });
+        ASSERT_NE(caption, g.texts.end());
+        EXPECT_TRUE(g.layout.captions->contains(*caption)) << text;
     }
-    EXPECT_EQ(inside, 6);
+}
+
+TEST(CaptionBand, TextsFadeInAndOut) {
+    const Callout fading{10, 29, "", 4};
+    EXPECT_EQ(fading.opacity(9), 0);
+    EXPECT_EQ(fading.opacity(10), 0.2);
+    EXPECT_EQ(fading.opacity(14), 1);
+    EXPECT_EQ(fading.opacity(29), 0.2);
+    EXPECT_EQ(fading.opacity(30), 0);
 }
 
 }  // namespace

@@ -47,65 +47,6 @@ bool same_within(const Image& a, const Image& b, const Box& box) {
     return true;
 }
 
-// ---- labels ------------------------------------------------------------------------------------
-
-bool within(Vec2 p, const std::array<Vec2, 4>& piece) {  // on or inside
-    int left = 0, right = 0;
-    for (std::size_t i = 0; i < 4; ++i) {
-        const double side = cross(piece[(i + 1) % 4] - piece[i], p - piece[i]);
-        left += side > 0, right += side < 0;
-    }
-    return left == 0 || right == 0;
-}
-
-Box around(const std::array<Vec2, 4>& piece) {
-    const auto [left, right] = std::ranges::minmax(piece, {}, &Vec2::x);
-    const auto [top, bottom] = std::ranges::minmax(piece, {}, &Vec2::y);
-    return {left.x, top.y, right.x - left.x, bottom.y - top.y};
-}
-
-// Labels of the mechanism keep their places and never intersect the beam or each other.
-void labels_keep_clear(const FilmSetup& setup, std::size_t expected, const std::string& name) {
-    Film film(setup);
-    std::vector<Box> places;
-    for (int k = 0; k < film.frames(); ++k) {
-        const FrameGeometry g = film.geometry(k);
-        for (const Box& label : g.labels) {
-            if (std::ranges::find(places, label) == places.end()) places.push_back(label);
-            for (std::size_t i = 0; i + 1 < g.beam.line.size(); ++i) {
-                std::array<Vec2, 4> piece{g.beam.face(i), g.beam.face(i + 1), g.beam.back(i + 1), g.beam.back(i)};
-                for (Vec2& p : piece) p = g.camera.to_pixels(p);
-                if (!label.overlaps(around(piece))) continue;
-                for (int n = 0; n <= 256; ++n) {  // points of the label
-                    const Vec2 p{label.x + label.w * (n % 16) / 15, label.y + label.h * (n / 16) / 16};
-                    ASSERT_FALSE(within(p, piece)) << name << ", frame " << k;
-                }
-            }
-        }
-    }
-    EXPECT_EQ(places.size(), expected) << name;
-    for (std::size_t i = 0; i < places.size(); ++i)
-        for (std::size_t j = 0; j < i; ++j) EXPECT_FALSE(places[i].overlaps(places[j])) << name;
-}
-
-TEST(Steadiness, LabelsKeepTheirPlacesClearOfTheBeam) {
-    labels_keep_clear(film_of(Style::flat, {.duration = 2}), 3, "as it is");
-    labels_keep_clear(film_of(Style::flat, {.duration = 2}, 10), 3, "exaggerated");
-    labels_keep_clear(test::led_rod(1.2, -40), 2, "fast beam");  // the angle's letter has no free place: it fades
-    labels_keep_clear(test::led_rod(0.3, -0.1), 2, "small angle");
-    labels_keep_clear(test::led_rod(0.05, -0.1), 1, "an arc under the beam");
-    labels_keep_clear(test::led_rod(-0.2, 4), 2, "through the horizontal");  // here, too: the beam sweeps both sides
-    FilmSetup tall = film_of(Style::flat, {.duration = 2});
-    tall.width = 1080, tall.height = 1920;
-    tall.others = {tall, tall};
-    labels_keep_clear(tall, 3, "portrait comparison");
-    FilmSetup held = film_of(Style::flat, {.duration = 2});
-    sim::Impact impact;
-    impact.t_start = 0.3, impact.t_end = 0.301, impact.force_peak = 100;
-    held.impacts = {impact};
-    labels_keep_clear(held, 3, "a peak that is held while the beam bounces");
-}
-
 // ---- a touching contact ------------------------------------------------------------------------
 
 // No pixel on a line across the contact, from the disc to the beam, shows the paper.
@@ -475,7 +416,8 @@ TEST(Steadiness, TheRingOfAnImpactLastsAsLongAtAnyFrameRate) {
     for (const double fps : {24.0, 30.0, 60.0}) {
         FilmSetup setup = film_of(Style::flat, {.duration = 0.8, .fps = fps});
         setup.fps = fps;
-        setup.layout = LayoutNode{};  // no ticks of impacts
+        setup.layout = LayoutNode{};     // no ticks of impacts
+        setup.view.show.labels = false;  // no peaks beside the clock
         setup.impacts.resize(1);
         setup.impacts[0].t_start = 0.3;
         Film film(setup);

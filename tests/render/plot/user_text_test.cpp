@@ -57,20 +57,6 @@ TEST_F(Words, PartsOfFormulasStandWhereTheyShould) {
 }
 
 // Within a formula only where it needs more than a line.
-TEST_F(Words, LinesBreakBetweenWordsAndBeforeSigns) {
-    TextStyle narrow = style_;
-    narrow.max_width = 320;
-    const auto lines = wrapped_lines(canvas_, "speeds of $a = b + c + d$ of it all", narrow, 5);
-    EXPECT_EQ(lines.front(), "speeds of");
-    EXPECT_EQ(lines[1], text_markup("$a = b + c + d$ of it"));
-    EXPECT_EQ(lines.back(), "all");
-    narrow.max_width = 150;
-    const auto broken = wrapped_lines(canvas_, "$a = b + c + d$", narrow, 5);
-    ASSERT_EQ(broken.size(), 2u);
-    EXPECT_EQ(broken[0], text_markup("$a = b$"));
-    EXPECT_EQ(broken[1], text_markup("$+ c + d$"));
-}
-
 TEST(PlainWords, AreForOtherPrograms) {
     EXPECT_EQ(plain_text("F = $K\\delta^{3/2}$, $\\omega_1$ \\$"), "F = Kδ^(3/2), ω₁ $");
     EXPECT_EQ(plain_text("$\\frac{\\lambda_1}{L}\\sqrt{EI}$"), "λ₁/L·√(EI)");
