@@ -21,7 +21,7 @@ ROOMS = ["sim", "render", "output", "scenes"]
 
 # Headers that only some files may include: the pattern, the number of .cpp files in each top-level folder.
 PRIVATE_LIBRARIES = [
-    ("SUNDIALS", re.compile(r"^(cvode|arkode|nvector|sunmatrix|sunlinsol|sunnonlinsol|sundials)/"), {"sim": 1}),
+    ("SUNDIALS", re.compile(r"^(cvode|nvector|sunmatrix|sunlinsol|sunnonlinsol|sundials)/"), {"sim": 1}),
     ("OSMesa or EGL", re.compile(r"^(GL/osmesa\.h|EGL/)"), {"render": 2}),
     ("FFmpeg", re.compile(r"^(libav\w+|libsw\w+)/"), {"output": 4}),
     ("libnetcdf", re.compile(r"^netcdf"), {"output": 3}),

@@ -55,6 +55,7 @@ constexpr Absent kAbsent[] = {
     {WordKind::key, "trace tip_path swing shutter exposures view.strobe palette logo",
      "it was withdrawn; \"theme\" and \"background\" remain, and the figure \"strobe\" draws several instants"},
 
+    {WordKind::key, "friction.damping", "the dashpot of the bristle was withdrawn; remove the key"},
     {WordKind::key, "accepted reproducible_until renderers",
      "it was withdrawn: references are plain files, which beamcam test BASELINES --update writes; remove the key"},
     {WordKind::key, "expected", "it was withdrawn; beamcam diff compares pictures of other programs"},

@@ -43,8 +43,6 @@ FrictionLaw FrictionLaw::of(const Problem& problem, const NormalLaw& normal, dou
         const double depth = impact_depth(n, normal.stiffness, mass, 1);
         law.stiffness =
             stick_slip->stiffness.value_or(2 * (1 - nu) / (2 - nu) * n * normal.stiffness * std::pow(depth, n - 1));
-        law.damping = stick_slip->damping.value_or(0);
-        law.lags = law.damping / law.stiffness > kShortestLag * depth;  // at 1 m/s the depth is a time in seconds
     }
     return law;
 }
@@ -52,19 +50,12 @@ FrictionLaw FrictionLaw::of(const Problem& problem, const NormalLaw& normal, dou
 double FrictionLaw::force(FrictionState state, double normal, double slip, double z) const {
     if (none()) return 0;
     if (!bristle) return coulomb(normal, slip);
-    if (state == FrictionState::stick) return -(stiffness * z + damping * slip);  // (S35)
+    if (state == FrictionState::stick) return -stiffness * z;  // (S35)
     return state == FrictionState::slide_plus ? -kinetic * normal : kinetic * normal;
-}
-
-// While sliding, the spring and the dashpot together carry the kinetic friction: k z + c ż = ±μN (S36).
-double FrictionLaw::bristle_rate(FrictionState state, double normal, double slip, double z) const {
-    if (state == FrictionState::stick) return slip;
-    return lags ? stiffness / damping * (sliding_bristle(state, normal) - z) : 0;
 }
 
 double FrictionLaw::margin(FrictionState state, double normal, double growth, double slip, double z) const {
     if (state == FrictionState::stick) return limit * normal - std::fabs(force(state, normal, slip, z));
-    if (lags) return foot_speed(state, normal, slip, z);
     return sign(state) * slip - kinetic * growth / stiffness;
 }
 

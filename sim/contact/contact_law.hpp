@@ -30,13 +30,10 @@ struct NormalLaw {
 };
 
 struct FrictionLaw {
-    double kinetic = 0, limit = 0;      // μ, μ_s [–]
-    double slip_speed = 1e-3;           // v_s of Coulomb friction [m/s]
-    bool bristle = false;               // stick-slip friction
-    double stiffness = 0, damping = 0;  // of the bristle: k [N/m], c [N s/m]
-    // The dashpot makes the bristle lag behind its force so far that its deflection z is a state while sliding, too
-    // (S36).
-    bool lags = false;
+    double kinetic = 0, limit = 0;  // μ, μ_s [–]
+    double slip_speed = 1e-3;       // v_s of Coulomb friction [m/s]
+    bool bristle = false;           // stick-slip friction
+    double stiffness = 0;           // of the bristle: k [N/m]
 
     // `mass`: mass of the beam [kg].
     static FrictionLaw of(const Problem& problem, const NormalLaw& normal, double mass);
@@ -51,17 +48,8 @@ struct FrictionLaw {
     double sliding_bristle(FrictionState state, double normal) const {
         return sign(state) * kinetic * normal / stiffness;
     }
-    // The deflection when sliding ends: spring and dashpot continue the sliding force.
-    double caught_bristle(FrictionState state, double normal, double slip) const {
-        return sliding_bristle(state, normal) - damping / stiffness * slip;
-    }
-    double bristle_rate(FrictionState state, double normal, double slip, double z) const;  // ż [m/s]
-    // Speed of the bristle's foot over the cam in the direction of sliding, ±(v_t − ż).
-    double foot_speed(FrictionState state, double normal, double slip, double z) const {
-        return sign(state) * (slip - bristle_rate(state, normal, slip, z));
-    }
     // Positive while the state of the bristle lasts: [N] of stick, [m/s] of sliding. `growth`: Ṅ [N/s], which counts
-    // where a bristle slides without lag.                                                               (S35), (S36)
+    // while it slides.                                                                                  (S35), (S36)
     double margin(FrictionState state, double normal, double growth, double slip, double z) const;
     // +1 or −1, the direction of sliding; −1 while sticking, too.
     static double sign(FrictionState state) { return state == FrictionState::slide_plus ? 1 : -1; }

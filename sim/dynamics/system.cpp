@@ -141,7 +141,7 @@ void System::rhs(double t, const double* y, double* dy) {
     } else if (phase_.touching) {
         c = current_contact(t, y, false);
         add_contact_force(c, acc);
-        if (has_bristle()) dy[2 * n_] = friction_.bristle_rate(phase_.friction, c.force, c.slip, bristle(y));
+        if (has_bristle()) dy[2 * n_] = phase_.friction == FrictionState::stick ? c.slip : 0;
     }
     if (!phase_.held) ledger[kWorkDrive] += accelerate(t, acc);
     if (phase_.touching) {
@@ -244,8 +244,8 @@ System::EnergyBalance System::balance_without_beam(const double* y, const Contac
     if (phase_.touching) {
         normal = phase_.held ? 0 : law_.stored_energy(-c.gap);
         if (has_bristle()) {
-            const bool state = phase_.friction == FrictionState::stick || friction_.lags;
-            const double z = state ? y[2 * n_] : friction_.sliding_bristle(phase_.friction, c.force);
+            const bool sticks = phase_.friction == FrictionState::stick;
+            const double z = sticks ? y[2 * n_] : friction_.sliding_bristle(phase_.friction, c.force);
             bristle_energy = 0.5 * friction_.stiffness * z * z;
         }
     }

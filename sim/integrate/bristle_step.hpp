@@ -24,20 +24,19 @@ class BristleStep {
     // slip; gap, gap_rate ← the changes of the gap and its rate that `ahead` causes.
     Lanes ahead(const Lanes& normal, const Lanes& friction, const Lanes& slip, Lanes& gap, Lanes& gap_rate) const;
     Lanes follow(const Lanes& change) const { return -(by_normal_ * change); }
-    // Friction, rate of the bristle and its deflection for these normal forces and slip. False: no solution.
-    bool settle(const Lanes& normal, const Lanes& slip, Lanes& friction, Lanes& rate);
+    // Friction, rate of the bristle and its deflection for these normal forces and slip.
+    void settle(const Lanes& normal, const Lanes& slip, Lanes& friction, Lanes& rate);
 
     FrictionState state() const { return state_; }
     double start() const { return start_; }             // z [m]
     const Lanes& deflection() const { return nodes_; }  // z at the nodes [m], after `settle`
-    double decays() const { return decays_; }           // decay by the dashpot within the step [–]
 
   private:
     Lanes force(const Lanes& normal, const Lanes& slip) const;
 
     const FrictionLaw& law_;
     FrictionState state_ = FrictionState::stick;
-    double start_ = 0, h_ = 0, decays_ = 0;
+    double start_ = 0, h_ = 0;
     Lanes nodes_{};
     NodalCompliance across_;
     NodalMatrix inverse_, by_normal_;  // (1 + ∂force/∂friction)⁻¹; of it times ∂force/∂normal

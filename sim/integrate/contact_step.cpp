@@ -80,8 +80,7 @@ double ContactStep::solve(const StepTable& nodal) {
         step_.propagate(nodal);
         step_.propagate_rates(nodal);
     }
-    if (friction_.bristle && !bristle_.settle(load.force, load.contact.slip, load.friction, s.bristle_rate))
-        return kNoSolution;
+    if (friction_.bristle) bristle_.settle(load.force, load.contact.slip, load.friction, s.bristle_rate);
     step_.arrive(table);
     end.dx = load.contact.dx[kNodes - 1];
     state_ = step_.next;
@@ -148,7 +147,6 @@ bool ContactStep::improve(const StepTable& table, int corrections) {
         Lanes gap, rate;
         ahead = bristle_.ahead(load.force, load.friction, contact.slip, gap, rate);
         residual -= by_depth * gap + by_rate * rate;
-        decays_ = std::max(decays_, bristle_.decays());
     }
     NodalMatrix matrix;
     for (std::size_t l = 0; l < kNodes; ++l) {

@@ -157,7 +157,7 @@ class Integrator {
 // Reads the phase of the system at every `start`.
 std::unique_ptr<Integrator> make_exponential(System& system, double rtol, double atol);
 std::unique_ptr<Integrator> make_rk8(Ode& ode, double rtol, double atol);
-// cvode-adams, cvode-bdf or arkode-erk.
+// cvode-adams or cvode-bdf.
 std::unique_ptr<Integrator> make_sundials(Method method, Ode& ode, double rtol, double atol);
 
 }  // namespace beamcam::sim

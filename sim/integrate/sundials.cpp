@@ -1,10 +1,6 @@
-// CVODE and ARKODE behind the one-step view of integrator.hpp: Adams with fixed-point iteration, BDF with Newton
-// and a dense differenced Jacobian (a few to eighty unknowns: differencing costs as much as a few steps, and dozens of
-// steps use it). The only file that includes SUNDIALS.
-//
-// A segment is CVODE's Nordsieck polynomial of the step, or ARKODE's interpolant of degree 5: with
-// Fehlberg's 8(7) pair events are as accurate as that interpolant, not as the step.
-#include <arkode/arkode_arkstep.h>
+// CVODE behind the one-step view of integrator.hpp: Adams with fixed-point iteration, BDF with Newton and a dense
+// differenced Jacobian (a few to eighty unknowns: differencing costs as much as a few steps, and dozens of steps use
+// it). A segment is the Nordsieck polynomial of the step. The only file that includes SUNDIALS.
 #include <cvode/cvode.h>
 #include <fmt/format.h>
 #include <nvector/nvector_serial.h>
@@ -59,38 +55,7 @@ class StoredTaylor final : public StoredSegment {
     std::span<const double> polynomial_;
 };
 
-// One of the suite's solvers by those of its functions that both have.
-struct SolverFunctions {
-    const char* name;
-    char* (*flag_name)(long int);  // from malloc
-    int (*set_user_data)(void*, void*);
-    int (*set_weights)(void*, int (*)(N_Vector, N_Vector, void*));
-    int (*set_most_steps)(void*, long int);
-    int (*restart)(void*, double, N_Vector);
-    int (*set_first_step)(void*, double);
-    int (*set_stop_time)(void*, double);
-    int (*step)(void*, double, N_Vector, double*, int);
-    int (*derivative)(void*, double, int, N_Vector);
-    int (*count_steps)(void*, long int*);
-    int (*count_rejected)(void*, long int*);
-    void (*free)(void**);
-};
-constexpr SolverFunctions kCvode{"CVODE",           CVodeGetReturnFlagName, CVodeSetUserData,
-                                 CVodeWFtolerances, CVodeSetMaxNumSteps,    CVodeReInit,
-                                 CVodeSetInitStep,  CVodeSetStopTime,       CVode,
-                                 CVodeGetDky,       CVodeGetNumSteps,       CVodeGetNumErrTestFails,
-                                 CVodeFree},
-    kArkode{
-        "ARKODE",           ARKStepGetReturnFlagName,  ARKStepSetUserData, ARKStepWFtolerances, ARKStepSetMaxNumSteps,
-        ARKStepReset,       ARKStepSetInitStep,        ARKStepSetStopTime, ARKStepEvolve,       ARKStepGetDky,
-        ARKStepGetNumSteps, ARKStepGetNumErrTestFails, ARKStepFree};
-// NOLINTBEGIN(misc-redundant-expression): equal now, but of two libraries
-static_assert(CV_ONE_STEP == ARK_ONE_STEP && CV_TOO_MUCH_ACC == ARK_TOO_MUCH_ACC && CV_ERR_FAILURE == ARK_ERR_FAILURE &&
-              CV_RHSFUNC_FAIL == ARK_RHSFUNC_FAIL && CV_FIRST_RHSFUNC_ERR == ARK_FIRST_RHSFUNC_ERR &&
-              CV_REPTD_RHSFUNC_ERR == ARK_REPTD_RHSFUNC_ERR && CV_UNREC_RHSFUNC_ERR == ARK_UNREC_RHSFUNC_ERR);
-// NOLINTEND(misc-redundant-expression)
-
-// Why a step failed, by the flag of either solver.
+// Why a step failed, by CVODE's flag.
 const char* reason_of(int flag) {
     switch (flag) {
         case CV_TOO_MUCH_ACC:
@@ -112,7 +77,7 @@ const char* reason_of(int flag) {
     }
 }
 
-// Right-hand side and error norm of both solvers.
+// Right-hand side and error norm.
 struct Callbacks {
     Ode& ode;
     double rtol, atol;
@@ -160,58 +125,13 @@ using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Destroy<destroy>>;
 using Vector = Owned<N_Vector, N_VDestroy>;
 
 struct FreeMemory {
-    const SolverFunctions& solver;
-    void operator()(void* memory) const { solver.free(&memory); }
+    void operator()(void* memory) const { CVodeFree(&memory); }
 };
-using Memory = std::unique_ptr<void, FreeMemory>;
 
-// What both solvers share; the derived class creates the solver's memory and evaluates within a step.
-class SundialsIntegrator : public Integrator, protected Segment {
+class Cvode final : public Integrator, private Segment {
   public:
-    SundialsIntegrator(const SundialsIntegrator&) = delete;
-    SundialsIntegrator& operator=(const SundialsIntegrator&) = delete;
-
-    void start(double t, const double* y) final {
-        std::copy_n(y, n_, N_VGetArrayPointer(y_.get()));
-        std::copy_n(y, n_, end_.begin());
-        t1 = t;
-        if (memory_) {
-            count();
-            check(solver_.restart(memory_.get(), t, y_.get()), "a restart");
-        } else {
-            create(t);
-            check(solver_.set_user_data(memory_.get(), &call_), "the start");
-            check(solver_.set_weights(memory_.get(), &Callbacks::weights), "the tolerances");
-            check(solver_.set_most_steps(memory_.get(), 1000000), "the start");
-        }
-        const double h = call_.first_step(t1, end_, N_VGetArrayPointer(work_.get()), stop_);
-        check(solver_.set_first_step(memory_.get(), limited(h)), "the first step");
-    }
-
-    const Segment& step() final {
-        t0 = t1;
-        const bool stops = std::isfinite(stop_) && stop_ > t0;
-        if (stops) check(solver_.set_stop_time(memory_.get(), stop_), "the stop time");
-        double t = t0;
-        const int flag = solver_.step(memory_.get(), stops ? stop_ : t0 + kFarTime, y_.get(), &t, CV_ONE_STEP);
-        if (flag < 0) throw StepFailure(fmt::format("{} ({})", reason_of(flag), text_of(flag)));
-        t1 = t;
-        std::copy_n(N_VGetArrayPointer(y_.get()), n_, end_.begin());
-        stepped();
-        count();
-        return *this;
-    }
-
-    const Segment& shorten(double at) final {
-        // The polynomial is as accurate as the step; no history is kept to repeat it.
-        value(at, end_.data());
-        t1 = at;
-        return *this;
-    }
-
-  protected:
-    SundialsIntegrator(const SolverFunctions& solver, Ode& ode, double rtol, double atol)
-        : solver_(solver),
+    Cvode(Method method, Ode& ode, double rtol, double atol)
+        : bdf_(method == Method::cvode_bdf),
           call_{ode, rtol, atol},
           n_(static_cast<std::size_t>(ode.size)),
           y_(N_VNew_Serial(static_cast<sunindextype>(n_), context_)),
@@ -222,59 +142,43 @@ class SundialsIntegrator : public Integrator, protected Segment {
         SUNContext_ClearErrHandlers(context_);  // failures are returned as flags and reported by the caller
 #endif
     }
+    Cvode(const Cvode&) = delete;
+    Cvode& operator=(const Cvode&) = delete;
 
-    void check(int flag, const char* call) const {
-        if (flag < 0) throw StepFailure(fmt::format("{} of the integrator failed ({})", call, text_of(flag)));
-    }
-    const double* derivative(double t, int k) const {
-        check(solver_.derivative(memory_.get(), t, k, work_.get()), "dense output");
-        return N_VGetArrayPointer(work_.get());
-    }
-
-    void own(void* memory) {
-        if (!memory) throw StepFailure("the integrator could not be set up");
-        memory_.reset(memory);
-    }
-    // Creates the solver's memory, with its method.
-    virtual void create(double t) = 0;
-    virtual void stepped() {}
-    // Numbers of right-hand sides and Jacobians since the last (re)start.
-    virtual IntegratorCounters evaluations() const = 0;
-
-    const SolverFunctions& solver_;
-    Callbacks call_;
-    std::size_t n_;
-    sundials::Context context_;
-    Vector y_, work_;
-    Owned<SUNMatrix, SUNMatDestroy> matrix_;  // of CVODE
-    Owned<SUNLinearSolver, SUNLinSolFree> linear_;
-    Owned<SUNNonlinearSolver, SUNNonlinSolFree> nonlinear_;
-    Memory memory_{nullptr, FreeMemory{solver_}};  // uses all of these
-    std::vector<double> end_;
-
-  private:
-    std::string text_of(int flag) const {
-        const std::unique_ptr<char, decltype(&std::free)> text(solver_.flag_name(flag), &std::free);
-        return fmt::format("{}: {}", solver_.name, text ? text.get() : std::to_string(flag).c_str());
-    }
-    void count() {
-        IntegratorCounters now = evaluations();
-        solver_.count_steps(memory_.get(), &now.steps);
-        solver_.count_rejected(memory_.get(), &now.rejected);
-        // A solver's counts restart at zero with the solver.
-        for (const auto each : {&IntegratorCounters::steps, &IntegratorCounters::rhs, &IntegratorCounters::rejected,
-                                &IntegratorCounters::jacobians})
-            counters.*each += now.*each >= last_.*each ? now.*each - last_.*each : now.*each;
-        last_ = now;
+    void start(double t, const double* y) override {
+        std::copy_n(y, n_, N_VGetArrayPointer(y_.get()));
+        std::copy_n(y, n_, end_.begin());
+        t1 = t;
+        if (memory_) {
+            count();
+            check(CVodeReInit(memory_.get(), t, y_.get()), "a restart");
+        } else {
+            create(t);
+        }
+        const double h = call_.first_step(t1, end_, N_VGetArrayPointer(work_.get()), stop_);
+        check(CVodeSetInitStep(memory_.get(), limited(h)), "the first step");
     }
 
-    IntegratorCounters last_;
-};
+    const Segment& step() override {
+        t0 = t1;
+        const bool stops = std::isfinite(stop_) && stop_ > t0;
+        if (stops) check(CVodeSetStopTime(memory_.get(), stop_), "the stop time");
+        double t = t0;
+        const int flag = CVode(memory_.get(), stops ? stop_ : t0 + kFarTime, y_.get(), &t, CV_ONE_STEP);
+        if (flag < 0) throw StepFailure(fmt::format("{} ({})", reason_of(flag), text_of(flag)));
+        t1 = t;
+        std::copy_n(N_VGetArrayPointer(y_.get()), n_, end_.begin());
+        keep_polynomial();
+        count();
+        return *this;
+    }
 
-class Cvode final : public SundialsIntegrator {
-  public:
-    Cvode(Method method, Ode& ode, double rtol, double atol)
-        : SundialsIntegrator(kCvode, ode, rtol, atol), bdf_(method == Method::cvode_bdf) {}
+    const Segment& shorten(double at) override {
+        // The polynomial is as accurate as the step; no history is kept to repeat it.
+        value(at, end_.data());
+        t1 = at;
+        return *this;
+    }
 
     void value(double t, double* y) const override { evaluate_taylor(polynomial_, n_, t, y); }
 
@@ -284,8 +188,9 @@ class Cvode final : public SundialsIntegrator {
     }
 
   private:
-    void create(double t) override {
-        own(CVodeCreate(bdf_ ? CV_BDF : CV_ADAMS, context_));
+    void create(double t) {
+        memory_.reset(CVodeCreate(bdf_ ? CV_BDF : CV_ADAMS, context_));
+        if (!memory_) throw StepFailure("the integrator could not be set up");
         check(CVodeInit(memory_.get(), &Callbacks::rhs, t, y_.get()), "the start");
 #if SUNDIALS_VERSION_MAJOR < 7
         check(CVodeSetErrFile(memory_.get(), nullptr), "the start");  // as ClearErrHandlers
@@ -298,64 +203,66 @@ class Cvode final : public SundialsIntegrator {
             nonlinear_.reset(SUNNonlinSol_FixedPoint(y_.get(), 0, context_));
             check(CVodeSetNonlinearSolver(memory_.get(), nonlinear_.get()), "the nonlinear solver");
         }
+        check(CVodeSetUserData(memory_.get(), &call_), "the start");
+        check(CVodeWFtolerances(memory_.get(), &Callbacks::weights), "the tolerances");
+        check(CVodeSetMaxNumSteps(memory_.get(), 1000000), "the start");
     }
 
-    void stepped() override {
+    void keep_polynomial() {
         int order = 1;
         check(CVodeGetLastOrder(memory_.get(), &order), "the order");
         polynomial_.assign(1, t1);
         double factorial = 1;
         for (int k = 0; k <= order; ++k) {
             if (k > 0) factorial *= k;
-            const double* d = derivative(t1, k);
+            check(CVodeGetDky(memory_.get(), t1, k, work_.get()), "dense output");
+            const double* d = N_VGetArrayPointer(work_.get());
             for (std::size_t i = 0; i < n_; ++i) polynomial_.push_back(d[i] / factorial);
         }
     }
 
-    IntegratorCounters evaluations() const override {
+    static std::string text_of(int flag) {
+        const std::unique_ptr<char, decltype(&std::free)> text(CVodeGetReturnFlagName(flag), &std::free);
+        return fmt::format("CVODE: {}", text ? text.get() : std::to_string(flag).c_str());
+    }
+    static void check(int flag, const char* call) {
+        if (flag < 0) throw StepFailure(fmt::format("{} of the integrator failed ({})", call, text_of(flag)));
+    }
+
+    void count() {
         IntegratorCounters now;
-        long linear = 0;
+        CVodeGetNumSteps(memory_.get(), &now.steps);
+        CVodeGetNumErrTestFails(memory_.get(), &now.rejected);
         CVodeGetNumRhsEvals(memory_.get(), &now.rhs);
         if (bdf_) {
+            long linear = 0;
             CVodeGetNumJacEvals(memory_.get(), &now.jacobians);
             CVodeGetNumLinRhsEvals(memory_.get(), &linear);
+            now.rhs += linear;
         }
-        now.rhs += linear;
-        return now;
+        // CVODE's counts restart at zero with it.
+        for (const auto each : {&IntegratorCounters::steps, &IntegratorCounters::rhs, &IntegratorCounters::rejected,
+                                &IntegratorCounters::jacobians})
+            counters.*each += now.*each >= last_.*each ? now.*each - last_.*each : now.*each;
+        last_ = now;
     }
 
     bool bdf_;
-    std::vector<double> polynomial_;
-};
-
-class Arkode final : public SundialsIntegrator {
-  public:
-    Arkode(Ode& ode, double rtol, double atol) : SundialsIntegrator(kArkode, ode, rtol, atol) {}
-
-    void value(double t, double* y) const override { std::copy_n(t == t1 ? end_.data() : derivative(t, 0), n_, y); }
-
-  private:
-    void create(double t) override {
-        own(ARKStepCreate(&Callbacks::rhs, nullptr, t, y_.get(), context_));
-        check(ARKStepSetTableNum(memory_.get(), ARKODE_DIRK_NONE, ARKODE_FEHLBERG_13_7_8), "the method");
-        check(ARKStepSetInterpolantDegree(memory_.get(), 5), "dense output");
-#if SUNDIALS_VERSION_MAJOR < 7
-        check(ARKStepSetErrFile(memory_.get(), nullptr), "the start");  // as ClearErrHandlers
-#endif
-    }
-
-    IntegratorCounters evaluations() const override {
-        IntegratorCounters now;
-        long implicit = 0;
-        ARKStepGetNumRhsEvals(memory_.get(), &now.rhs, &implicit);
-        return now;
-    }
+    Callbacks call_;
+    std::size_t n_;
+    sundials::Context context_;
+    Vector y_, work_;
+    Owned<SUNMatrix, SUNMatDestroy> matrix_;
+    Owned<SUNLinearSolver, SUNLinSolFree> linear_;
+    Owned<SUNNonlinearSolver, SUNNonlinSolFree> nonlinear_;
+    std::unique_ptr<void, FreeMemory> memory_;  // uses all of these
+    std::vector<double> end_, polynomial_;
+    IntegratorCounters last_;
 };
 
 }  // namespace
 
 std::unique_ptr<Integrator> make_sundials(Method method, Ode& ode, double rtol, double atol) {
-    if (method == Method::arkode_erk) return std::make_unique<Arkode>(ode, rtol, atol);
     return std::make_unique<Cvode>(method, ode, rtol, atol);
 }
 

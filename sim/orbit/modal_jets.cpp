@@ -162,7 +162,7 @@ ModalJets::Forces ModalJets::forces(JetState& s, const Phase& phase, const Conta
     if (!friction_.bristle)
         f.friction = friction_ratio() * f.normal;
     else if (phase.friction == FrictionState::stick)
-        f.friction = -(friction_.stiffness * s.bristle + friction_.damping * contact_.slip);
+        f.friction = -friction_.stiffness * s.bristle;
     else
         f.friction = (-FrictionLaw::sign(phase.friction) * friction_.kinetic) * f.normal;
     return f;
@@ -174,10 +174,7 @@ void ModalJets::flow(JetState& s, const Phase& phase, const ContactState& near, 
     if (phase.touching) {
         const Forces f = forces(s, phase, near);
         for (std::size_t i = 0; i < force_.size(); ++i) force_[i] += f.normal * jn_[i] + f.friction * jt_[i];  // (S28)
-        if (friction_.bristle && phase.friction == FrictionState::stick)
-            bristle_rate = f.slip;
-        else if (friction_.lags)
-            bristle_rate = (friction_.stiffness / friction_.damping) * (sliding_bristle(phase.friction, f) - s.bristle);
+        if (friction_.bristle && phase.friction == FrictionState::stick) bristle_rate = f.slip;
     } else {
         place_hub(s);
         assemble(s);

@@ -31,6 +31,7 @@ void Saltation::pass(double t, const double* before, const Phase& was, const dou
                      Eigen::MatrixXd& tangents) {
     const Instant at{t, before, after, was, is};
     if (was.held && !is.touching) ++lifts_;
+    // Only impacts change rates. One whose impulse vanishes in their rounding grazes the cam and is passed over (S71).
     const bool jumps = !std::equal(after + n_, after + 2 * n_, before + n_);
     if (jumps)
         impact(at, tangents);
@@ -151,8 +152,7 @@ void Saltation::begin_touch(const Instant& at, Eigen::MatrixXd& tangents) {
 }
 
 // At break-away the friction force drops if μ_s > μ. When the bristle sticks again, its deflection is that of the
-// sliding force and its rate is continuous. The deflection of a lagging bristle is a state throughout.          (S36),
-// (S71)
+// sliding force and its rate is continuous. (S36), (S71)
 void Saltation::change_friction(const Instant& at, Eigen::MatrixXd& tangents) {
     const FrictionLaw& friction = probe_.friction();
     const Eigen::VectorXd flow = flow_after(at);
@@ -163,18 +163,18 @@ void Saltation::change_friction(const Instant& at, Eigen::MatrixXd& tangents) {
         Jet bristle_rate;
         jets_.flow(s, at.was, near_, acceleration, bristle_rate);
         const Jet guard = friction.limit * f.normal - fabs(f.friction);
-        const Jet caught = jets_.sliding_bristle(at.was.friction, f) - (friction.damping / friction.stiffness) * f.slip;
+        const Jet caught = jets_.sliding_bristle(at.was.friction, f);
         for (int k = 0; k < kFlow && first + k < tangents.cols(); ++k) {
             double& bristle = tangents(2 * n_, first + k);
             if (at.is.friction == FrictionState::stick) {
-                if (!friction.lags) bristle = units_[2 * n_] * caught.d[k];
+                bristle = units_[2 * n_] * caught.d[k];
                 continue;
             }
             const double delay = friction.limit > friction.kinetic ? -guard.d[k] / guard.d[kFlow] : 0;
             for (int i = 0; i < n_; ++i)
                 tangents(n_ + i, first + k) +=
                     units_[n_ + i] * (acceleration[static_cast<std::size_t>(i)].v - flow[n_ + i]) * delay;
-            bristle = friction.lags ? bristle + units_[2 * n_] * (bristle_rate.v - flow[2 * n_]) * delay : 0;
+            bristle = 0;
         }
     }
 }

@@ -16,9 +16,11 @@ bool same(const Dimension& a, const Dimension& b) {
 
 std::string si_unit(const Dimension& d) {
     namespace dim = dimension;
-    static constexpr std::pair<Dimension, std::string_view> kNames[] = {
-        {dim::kNone, "1"},       {dim::kPressure, "Pa"},         {dim::kTorque, "N m"},
-        {dim::kFrequency, "Hz"}, {dim::kSpringStiffness, "N/m"}, {dim::kSpringDamping, "N s/m"}};
+    static constexpr std::pair<Dimension, std::string_view> kNames[] = {{dim::kNone, "1"},
+                                                                        {dim::kPressure, "Pa"},
+                                                                        {dim::kTorque, "N m"},
+                                                                        {dim::kFrequency, "Hz"},
+                                                                        {dim::kSpringStiffness, "N/m"}};
     for (const auto& [known, name] : kNames)
         if (same(d, known)) return std::string(name);
     if (d.mass == 1 && d.time == -2 && d.angle == 0 && d.length == 1) return "N";

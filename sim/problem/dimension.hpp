@@ -27,7 +27,6 @@ constexpr Dimension kPressure{-1, 1, -2, 0};
 constexpr Dimension kInertia{2, 1, 0, 0};
 constexpr Dimension kTorque{2, 1, -2, 0};
 constexpr Dimension kSpringStiffness{0, 1, -2, 0};  // N/m
-constexpr Dimension kSpringDamping{0, 1, -1, 0};    // N s/m
 // N/m^n, the stiffness of a contact with exponent n.
 constexpr Dimension contact_stiffness(double n) { return {1 - n, 1, -2, 0}; }
 }  // namespace dimension

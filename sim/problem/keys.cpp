@@ -127,7 +127,6 @@ static void visit(Visitor& v, StickSlipFriction& f) {
              "Static coefficient of friction μ_s, at least μ; by default μ.");
     v.number("stiffness", f.stiffness, dim::kSpringStiffness, kPositive,
              "Stiffness of the bristle; by default derived from the contact stiffness.");
-    v.number("damping", f.damping, dim::kSpringDamping, kNotNegative, "Damping of the bristle; by default 0.");
 }
 
 static void visit(Visitor& v, Friction& friction) {

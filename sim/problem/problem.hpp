@@ -150,7 +150,6 @@ struct StickSlipFriction {
     double coefficient = 0.2;                  // μ, kinetic [–], >= 0
     std::optional<double> static_coefficient;  // μ_s >= μ; absent: μ
     std::optional<double> stiffness;           // bristle [N/m], > 0; absent: (S37)
-    std::optional<double> damping;             // bristle [N s/m], >= 0; absent: 0
 };
 using Friction = std::variant<NoFriction, CoulombFriction, StickSlipFriction>;
 
@@ -208,12 +207,11 @@ struct Initial {
     std::optional<InitialContact> contact = {};  // only `straight`; absent: the motion begins in flight
 };
 
-enum class Method { automatic, exponential, rk8, cvode_adams, cvode_bdf, arkode_erk };
+enum class Method { automatic, rk8, cvode_adams, cvode_bdf };
 inline std::span<const Named<Method>> names(Method) {
     using enum Method;
     static constexpr Named<Method> all[] = {
-        {automatic, "auto"},          {exponential, "exponential"}, {rk8, "rk8"},
-        {cvode_adams, "cvode-adams"}, {cvode_bdf, "cvode-bdf"},     {arkode_erk, "arkode-erk"}};
+        {automatic, "auto"}, {rk8, "rk8"}, {cvode_adams, "cvode-adams"}, {cvode_bdf, "cvode-bdf"}};
     return all;
 }
 struct Solver {

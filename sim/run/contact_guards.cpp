@@ -86,7 +86,7 @@ ContactGuards::Guards ContactGuards::evaluate(const Segment& segment, double t) 
     const FrictionLaw& friction = probe_.system.friction();
     if (!friction.bristle) return w;
     const FrictionState state = state_.phase.friction;
-    const double growth = state == FrictionState::stick || friction.lags ? 0 : force_growth(segment, t);
+    const double growth = state == FrictionState::stick ? 0 : force_growth(segment, t);
     w.friction = friction.margin(state, c.force, growth, c.slip, probe_.system.bristle(probe_.state()));
     return w;
 }

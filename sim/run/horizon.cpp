@@ -102,9 +102,7 @@ Comparison comparison(const Problem& problem, double end) {
 
 Comparison tighter_comparison(const Problem& problem) { return {at_tolerance(problem), true}; }
 
-bool tighter_is_cheap(const Problem& problem) {
-    return problem.solver.method == Method::automatic || problem.solver.method == Method::exponential;
-}
+bool tighter_is_cheap(const Problem& problem) { return problem.solver.method == Method::automatic; }
 
 double other_needed_until(const Problem& problem, const Request& angle, const Result& plain, const Result& tighter) {
     const std::vector<double>& times = angle.tables[0].times;

@@ -18,13 +18,11 @@ std::unique_ptr<Integrator> make_integrator(const Solver& solver, System& dynami
     const double rtol = share * solver.rtol, atol = share * solver.atol;
     switch (solver.method) {
         case Method::automatic:
-        case Method::exponential:
             return make_exponential(dynamics, rtol, atol);
         case Method::rk8:
             return make_rk8(dynamics, rtol, atol);
         case Method::cvode_adams:
         case Method::cvode_bdf:
-        case Method::arkode_erk:
             break;
     }
     return make_sundials(solver.method, dynamics, rtol, atol);

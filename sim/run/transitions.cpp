@@ -84,7 +84,7 @@ void Transitions::begin_flight() {
 }
 
 // State of friction at the touch: slip unless the bristle can stick. For n > 1 the normal force starts with zero slope,
-// so any slip breaks the bond at once, as it does with a dashpot; for n = 1 both forces grow linearly.
+// so any slip breaks the bond at once; for n = 1 both forces grow linearly.
 void Transitions::start_friction() {
     state_.phase.friction = FrictionState::stick;
     const FrictionLaw& friction = system_.friction();
@@ -94,7 +94,7 @@ void Transitions::start_friction() {
     const ContactState c = contact_now();
     const double growth =
         problem().contact.exponent > 1 ? 0 : system_.normal_law().stiffness * std::max(0.0, -c.gap_rate);
-    const bool breaks = friction.damping > 0 || friction.stiffness * std::fabs(c.slip) > friction.limit * growth;
+    const bool breaks = friction.stiffness * std::fabs(c.slip) > friction.limit * growth;
     if (breaks && c.slip != 0 && !(c.gap < 0))
         state_.phase.friction = c.slip > 0 ? FrictionState::slide_plus : FrictionState::slide_minus;
     enter_phase();
@@ -103,12 +103,12 @@ void Transitions::start_friction() {
 void Transitions::change_friction() {
     const FrictionLaw& friction = system_.friction();
     const ContactState c = contact_now();
-    // A bristle without lag follows the sliding force: it has no state until it sticks again.
+    // While it slides, the bristle follows its force: it has no state until it sticks again.
     if (state_.phase.friction == FrictionState::stick) {
         state_.phase.friction = c.friction < 0 ? FrictionState::slide_plus : FrictionState::slide_minus;
-        if (!friction.lags) bristle() = 0;
+        bristle() = 0;
     } else {
-        if (!friction.lags) bristle() = friction.caught_bristle(state_.phase.friction, c.force, c.slip);
+        bristle() = friction.sliding_bristle(state_.phase.friction, c.force);
         state_.phase.friction = FrictionState::stick;
     }
     enter_phase();

@@ -21,8 +21,7 @@ struct AccuracyRequest {
     double longest_run = 2;  // slower simulations are left out [s]
     // Of the work–precision diagram.
     std::vector<double> rtols = {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12};
-    std::vector<Method> methods = {Method::automatic, Method::rk8, Method::cvode_adams, Method::cvode_bdf,
-                                   Method::arkode_erk};
+    std::vector<Method> methods = {Method::automatic, Method::rk8, Method::cvode_adams, Method::cvode_bdf};
     std::vector<int> modes = {1, 2, 3, 4, 6, 8, 12, 16, 20};  // and the number of the problem itself
     // In descending order of accuracy.
     std::vector<ModelKind> models = {ModelKind::exact, ModelKind::second_order, ModelKind::first_order,

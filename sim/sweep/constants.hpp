@@ -42,7 +42,7 @@ inline constexpr int kMaxSurfaceIterations = 60;   // Newton's method with bisec
 // Turns before the samples in which the tangent aligns with the direction of largest growth.
 inline constexpr long kWarmUp = 20;
 inline constexpr double kFarFromAway = 1.5;         // [rad] from the cam's axis: a little less than π/2
-inline constexpr long kIntervalsPerReport = 4096;   // series between two calls of `progress`
+inline constexpr long kPlacesPerReport = 16384;     // comparisons with the surface between two calls of `progress`
 inline constexpr double kLargestDifference = 1e50;  // tangents are rescaled beyond this and below its inverse
 inline constexpr double kSeriesReach = 0.9;         // of the length that the last terms of the series allow
 inline constexpr double kLongestTurn = 1;           // [rad] of a series without gravity, which is a polynomial

@@ -12,10 +12,10 @@
 namespace beamcam::sim {
 
 SampledMotion RigidMotion::follow(const Progress& progress, bool until_return) {
-    for (long count = 1; turn_ < span_.to && !motion_.over_the_top; ++count) {
+    progress_ = &progress;
+    while (turn_ < span_.to && !motion_.over_the_top) {
         if (until_return && returned_) break;
-        if (count % kIntervalsPerReport == 0 && progress && !progress(static_cast<double>(turn_) * period_))
-            throw Interrupted();
+        report();
         with_tangent_ = turn_ >= span_.from - kWarmUp;
         in_contact_ ? stay_in_contact() : fly();
     }
@@ -23,6 +23,11 @@ SampledMotion RigidMotion::follow(const Progress& progress, bool until_return) {
     motion_.end.y.resize(2 + kLedgerSize);
     motion_.end.phase.touching = motion_.end.phase.held = in_contact_;
     return std::move(motion_);
+}
+
+void RigidMotion::report() {
+    if (++places_ % kPlacesPerReport == 0 && *progress_ && !(*progress_)(static_cast<double>(turn_) * period_))
+        throw Interrupted();
 }
 
 // One Taylor series, or its part up to a touch.
@@ -80,18 +85,18 @@ std::optional<double> RigidMotion::first_touch(double h) {
                             std::fabs(mirrored_.k) + mirrored_.alpha - surface_.lowest_acceleration()};
     double t = std::max(0.0, clear_until_ - s_);
     while (t < h) {
+        report();
         const SurfaceAngle c = surface_at(s_ + t);
         double g = series_.theta(t) - c.angle;
         const double v = series_.rate(t) - surface_.rate(c);
-        // A gap that opens is at least as wide as the rounding of its angles, or the steps would stay as short as that.
-        if ((touched_ && t == 0) || (g < 0 && v > 0 && g > -kOpeningDepth))
-            g = std::max(g, v > 0 ? kAngleRounding : 0.0);
+        if ((touched_ && t == 0) || (g < 0 && v > 0 && g > -kOpeningDepth)) g = std::max(g, 0.0);
         if (g < 0 || (g == 0 && !(v > 0))) return t;
         if (const auto certain = above.certain_time(g, v)) {
             const double at = falling(t, t + *certain, h);
             return at < h ? std::optional(at) : std::nullopt;
         }
-        t += std::max(above.clear_time(g, v), kShortestAdvance);
+        // The speed of a gap that opens may be rounding: it is followed until it might close by that of its angles.
+        t += std::max(above.clear_time(g, v), g == 0 ? above.clear_time(kAngleRounding, 0) : kShortestAdvance);
     }
     return {};
 }

@@ -40,6 +40,7 @@ class RigidMotion {
     static InitialState start_of(const Problem& problem, const InitialState* start);
     static Mirrored mirrored(const Problem& problem, double theta);
 
+    void report();
     void fly();
     void stay_in_contact();
     SurfaceAngle surface_at(double s);  // caches the last result
@@ -91,6 +92,8 @@ class RigidMotion {
     bool annihilated_ = false;                  // the tangent was restarted since the last strobe
     double growth_ = 0, growth_at_strobe_ = 0;  // logarithms of the tangent's length
     long kept_impacts_ = 0;
+    const Progress* progress_ = nullptr;
+    long places_ = 0;  // that were compared with the surface, and series
     SampledMotion motion_;
 };
 

@@ -228,7 +228,7 @@ inline Problem mixture_of(Dice& dice) {
     p.contact.damping = dice.one_of(names(DampingLaw{}));
     p.contact.restitution = dice.share();
     if (dice.one_in(3)) p.contact.friction = CoulombFriction{dice.between(0, 5), dice.decades(-6, 0)};
-    if (dice.one_in(3)) p.contact.friction = StickSlipFriction{dice.between(0, 2), {}, dice.decades(2, 9), {}};
+    if (dice.one_in(3)) p.contact.friction = StickSlipFriction{dice.between(0, 2), {}, dice.decades(2, 9)};
     if (dice.one_in(3)) p.contact.offset = dice.decades(-4, -1.3);
     p.gravity = dice.one_in(5) ? 0 : dice.decades(-1, 2);
     p.solver.rtol = dice.decades(-12, -2);

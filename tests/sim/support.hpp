@@ -150,7 +150,7 @@ inline Problem random_contact(unsigned seed) {
         const int friction = dice.one_of(5);
         if (friction == 0)
             p.contact.friction = CoulombFriction{dice.between(0, 1), std::pow(10, dice.between(-2.5, -1))};
-        if (friction == 1) p.contact.friction = StickSlipFriction{dice.between(0, 1), {}, {}, {}};
+        if (friction == 1) p.contact.friction = StickSlipFriction{dice.between(0, 1), {}, {}};
         if (dice.one_of(3) == 0) p.contact.offset.reset();
         p.initial.angle = dice.between(0.5, 1.1);
         p.initial.angular_velocity = dice.between(-2.5, 0);

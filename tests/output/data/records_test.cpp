@@ -97,7 +97,7 @@ const std::vector<sim::Channel> kTheta = {{sim::ChannelKind::theta, 0}};
 TEST(Summary, HasEveryNameInItsOrder) {
     sim::Result result = one_collision();
     result.warnings = {"the cam never reaches the beam"};
-    result.steps_by_method = {{sim::Method::exponential, 40000}, {sim::Method::rk8, 4000}};
+    result.steps_by_method = {{sim::Method::automatic, 40000}, {sim::Method::rk8, 4000}};
     result.reproducible_until = 3.25;
     result.not_reproducible = {{3.25, 8.5}, {9, {}}};
     result.reproducible_again_from = 9.5;
@@ -117,7 +117,7 @@ TEST(Summary, HasEveryNameInItsOrder) {
     EXPECT_EQ(printed,
               "rad s N True False\n"
               "{'model': 'first-order', 'modes': 2, 'end_time': 1.5, 'steps': 44000, "
-              "'steps_by_method': {'exponential': 40000, 'rk8': 4000}, 'rhs_evaluations': 90000, "
+              "'steps_by_method': {'auto': 40000, 'rk8': 4000}, 'rhs_evaluations': 90000, "
               "'wall_seconds': 0.0, 'events': {'theta_zero': [{'t': 0.369993889, 'theta_dot': -5.5}]}, 'extrema': "
               "{'theta': {'min': -1.0, 't_min': 0.5, 'max': 2.0, 't_max': 1.0}}, 'energy_residual_max': 0.0, "
               "'energy_scale': 0.0, 'impacts': 2, 'collisions': 2, 'reproducible_until': 3.25, 'not_reproducible': "

@@ -1199,7 +1199,7 @@ TEST(Labels, UnusualParametersAreStated) {
 
 TEST(Labels, BothCoefficientsOfStickSlipAreTold) {
     sim::Problem problem;
-    problem.contact.friction = sim::StickSlipFriction{0.2, 0.35, {}, {}};
+    problem.contact.friction = sim::StickSlipFriction{0.2, 0.35, {}};
     const std::vector<std::string> pieces = parameter_pieces(problem);
     const auto found =
         std::ranges::find_if(pieces, [](const std::string& piece) { return piece.find("0.2") != std::string::npos; });

@@ -58,7 +58,7 @@ TEST(Reader, EveryKeyReachesItsPlace) {
                  "model": "second-order", "basis": "cantilever", "modes": 5, "kelvin_voigt": "1 us"},
         "cam": {"centre": ["30 cm", -0.3], "radius": 0.11, "eccentricity": 0.03, "phase": "-90 deg", "speed": "300 rpm", "youngs_modulus": "210 GPa", "poisson_ratio": 0.28},
         "contact": {"model": "restitution", "stiffness": "hertz", "exponent": 1.4, "damping": "flores", "restitution": 0.6, "law": "stronge",
-                    "friction": {"type": "stick-slip", "coefficient": 0.1, "static_coefficient": 0.2, "stiffness": 1e5, "damping": 3},
+                    "friction": {"type": "stick-slip", "coefficient": 0.1, "static_coefficient": 0.2, "stiffness": 1e5},
                     "offset": "half-depth", "approach_floor": {"policy": "first-touch", "value": "2 mm/s"}, "collision_gap": "5 ms"},
         "gravity": 1.62, "initial": {"angle": "60 deg", "angular_velocity": "-1 rad/s", "shape": "static"},
         "solver": {"method": "rk8", "rtol": 1e-9, "atol": 1e-12}, "time": {"end": "400 ms"}})");
@@ -99,7 +99,6 @@ TEST(Reader, EveryKeyReachesItsPlace) {
     EXPECT_EQ(friction.coefficient, 0.1);
     EXPECT_EQ(friction.static_coefficient, 0.2);
     EXPECT_EQ(friction.stiffness, 1e5);
-    EXPECT_EQ(friction.damping, 3);
     EXPECT_FALSE(p.contact.offset);
     EXPECT_EQ(p.contact.approach_floor.policy, sim::ApproachFloorPolicy::first_touch);
     EXPECT_EQ(p.contact.approach_floor.value, 0.002);

@@ -81,12 +81,10 @@ TEST(Impact, ChatterOfAFlexibleBeamEndsAlikeWithEveryMethod) {
     EXPECT_LT(last.v_n_after.value(), 1e-4);
     EXPECT_NEAR(last.restitution.value(), problem.contact.restitution, 1e-9);
     EXPECT_LT(reference.energy_residual_max, 10 * problem.solver.rtol * reference.energy_scale);
-    for (const Method method : {Method::rk8, Method::arkode_erk}) {
-        problem.solver.method = method;
-        const Result other = simulate(problem, request);
-        ASSERT_EQ(other.impacts.size(), reference.impacts.size()) << name(method);
-        EXPECT_NEAR(other.impacts.back().t_start, rest.t_start, 2e-8) << name(method);
-    }
+    problem.solver.method = Method::rk8;
+    const Result other = simulate(problem, request);
+    ASSERT_EQ(other.impacts.size(), reference.impacts.size());
+    EXPECT_NEAR(other.impacts.back().t_start, rest.t_start, 2e-8);
 }
 
 // Rounding of the rebound does not decide whether it is chatter.

@@ -175,7 +175,7 @@ Problem sticking_impacts() {
                 0.3};
     p.contact.stiffness = 1021688283.1502424;
     p.contact.restitution = 0.5266790390076765;
-    p.contact.friction = StickSlipFriction{0.951832054171672, {}, {}, {}};
+    p.contact.friction = StickSlipFriction{0.951832054171672, {}, {}};
     p.initial = {0.9785794789154502, -0.6531649427845059, InitialShape::static_equilibrium};
     return p;
 }
@@ -230,7 +230,7 @@ TEST(ShortEvents, AnEventOnThePassageOfTheCentreDoesNotHideIt) {
     p.contact.stiffness = 2466.6144951472115;
     p.contact.damping = DampingLaw::hu_guo;
     p.contact.restitution = 0.4447066819865039;
-    p.contact.friction = StickSlipFriction{0.8646925526821736, {}, {}, {}};
+    p.contact.friction = StickSlipFriction{0.8646925526821736, {}, {}};
     p.contact.offset = 0;
     p.initial = {0.6319131305282734, -3.88974749806564, InitialShape::straight};
     for (const Method method : {Method::automatic, Method::rk8, Method::cvode_adams})

@@ -201,7 +201,7 @@ TEST(Extrema, OfImpactsOfManyModesExceedEverySample) {
 TEST(Extrema, OfStickSlipExceedEverySample) {
     SKIP_UNDER_SANITIZERS();
     Problem p = turning_cam(ModelKind::first_order, 2);
-    p.contact.friction = StickSlipFriction{0.4, {}, {}, {}};
+    p.contact.friction = StickSlipFriction{0.4, {}, {}};
     expect_true_extrema(p, 0.35, 8'000);
 }
 
@@ -216,7 +216,7 @@ TEST(Extrema, OfStickSlipOfAnOverdampedBeamExceedEverySample) {
     p.contact.damping = DampingLaw::none;
     p.contact.stiffness = 1.36e5;
     p.contact.offset.reset();
-    p.contact.friction = StickSlipFriction{0.8, {}, {}, {}};
+    p.contact.friction = StickSlipFriction{0.8, {}, {}};
     p.initial.angle = 0.526;
     p.initial.q = {0.005, -1e-5, 3e-4};
     expect_true_extrema(p, 0.45, 18'000);

@@ -166,7 +166,7 @@ TEST(StepChannels, APolynomialFollowsEveryChannelInShortParts) {
 TEST(StepChannels, SamplesOfAContactFollowItsLaw) {
     Problem p;
     p.beam.modes = 4;
-    p.contact.friction = StickSlipFriction{0.3, {}, {}, {}};
+    p.contact.friction = StickSlipFriction{0.3, {}, {}};
     int moved = 0;
     visit_steps(p, 0.45, [&](const SegmentInterval& s, StepChannels& step) {
         const TouchSamples* touch = s.segment->touch();

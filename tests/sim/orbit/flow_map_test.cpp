@@ -98,13 +98,12 @@ std::vector<MapCase> map_cases() {
     Problem& friction = add("TwoModesCoulombOffset", machine(first_order, 2, compliant), 0.5);
     friction.contact.friction = CoulombFriction{0.3, 0.05};
     friction.contact.offset = 0.01;
-    for (const int kind : {0, 1, 2}) {
-        const char* names[] = {"StickSlip", "StickSlipStaticLarger", "StickSlipLagging"};
+    for (const int kind : {0, 1}) {
+        const char* names[] = {"StickSlip", "StickSlipStaticLarger"};
         Problem& sticky = add(names[kind], machine(first_order, 2, compliant), 0.4);
         sticky.cam->speed = 0.5;  // so slow that the bristle catches, breaks away and catches again
         sticky.contact.offset = 0.05;
-        sticky.contact.friction = StickSlipFriction{0.8, kind == 1 ? std::optional(0.9) : std::nullopt, 2e4,
-                                                    kind == 2 ? std::optional(30.0) : std::nullopt};
+        sticky.contact.friction = StickSlipFriction{0.8, kind == 1 ? std::optional(0.9) : std::nullopt, 2e4};
     }
     all.back().tolerance = 2e-6;  // more steps, more rounding
     Problem& rests = add("OneModeRestsOnTheCam", machine(first_order, 1, restitution), 0.3);

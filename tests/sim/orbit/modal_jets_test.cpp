@@ -100,7 +100,7 @@ TEST(ModalJets, GiveTheVectorFieldAndItsDerivatives) {
     const Phase flight, touch{.touching = true, .approach = 5}, held{.touching = true, .held = true},
         slides{.touching = true, .approach = 5, .friction = FrictionState::slide_plus};
     const CoulombFriction rough{0.3, 0.05};
-    const StickSlipFriction sticky{0.3, {}, 2e4, 30.0};
+    const StickSlipFriction sticky{0.3, {}, 2e4};
     for (const JetCase& c : {JetCase{"flight"}, JetCase{"flight of a clamped shape", first_order, Basis::cantilever},
                              JetCase{"touch", first_order, Basis::automatic, NoFriction{}, touch},
                              JetCase{"rigid", rigid, Basis::automatic, rough, touch},

@@ -27,7 +27,7 @@ TEST(NumberKeys, AreThoseOfTheProblemAsItIs) {
 TEST(NumberKeys, TakeEveryNumberAndGiveItBack) {
     Problem p;
     p.hub.drive = HarmonicTorque{1, 2, 3};
-    p.contact.friction = StickSlipFriction{0.1, 0.2, 3.0, 4.0};
+    p.contact.friction = StickSlipFriction{0.1, 0.2, 3.0};
     p.beam.damping_ratio = {0.1, 0.2};
     for (const NumberKey& key : number_keys(p)) {
         const double value = key.whole ? 3 : 0.4375;

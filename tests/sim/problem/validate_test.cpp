@@ -119,15 +119,11 @@ const Refusal kRefusals[] = {
      }},
     {"contact.friction.static_coefficient",
      [](Problem& p) {
-         p.contact.friction = StickSlipFriction{0.3, 0.2, {}, {}};
+         p.contact.friction = StickSlipFriction{0.3, 0.2, {}};
      }},
     {"contact.friction.stiffness",
      [](Problem& p) {
-         p.contact.friction = StickSlipFriction{0.3, {}, 0, {}};
-     }},
-    {"contact.friction.damping",
-     [](Problem& p) {
-         p.contact.friction = StickSlipFriction{0.3, {}, {}, -1};
+         p.contact.friction = StickSlipFriction{0.3, {}, 0};
      }},
     {"gravity", [](Problem& p) { p.gravity = kNan; }},
     {"initial.angle", [](Problem& p) { p.initial.angle = INFINITY; }},

@@ -25,7 +25,7 @@ void press(Problem& p) {
     p.hub.drive = ConstantTorque{-2};
 }
 void stick(Problem& p) {
-    p.contact.friction = StickSlipFriction{0.3, 0.5, {}, {}};
+    p.contact.friction = StickSlipFriction{0.3, 0.5, {}};
     p.hub.radius = 0.1;
     p.contact.offset = 0.01;
     p.cam->speed = 10;

@@ -63,7 +63,7 @@ Problem drawn(const Draws& draws) {
     }
     const int friction = r.below(3);
     if (friction == 1) p.contact.friction = CoulombFriction{r.between(0.1, 0.8), 1e-2};
-    if (friction == 2) p.contact.friction = StickSlipFriction{r.between(0.1, 0.8), {}, {}, {}};
+    if (friction == 2) p.contact.friction = StickSlipFriction{r.between(0.1, 0.8), {}, {}};
     if (r.below(2)) p.contact.offset.reset();
     if (r.below(3) == 2) p.beam.damping_ratio = {r.between(0, 0.1)};
     if (r.below(4) == 3) p.hub.drive = ConstantTorque{r.between(-1, 1)};

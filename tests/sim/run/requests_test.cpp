@@ -31,7 +31,7 @@ class EveryMethod : public ::testing::TestWithParam<Method> {};
 TEST_P(EveryMethod, ObservingNeverDisturbs) {
     Problem p;
     p.solver.method = GetParam();
-    for (const Friction& friction : {Friction{NoFriction{}}, Friction{StickSlipFriction{0.3, 0.4, {}, {}}}}) {
+    for (const Friction& friction : {Friction{NoFriction{}}, Friction{StickSlipFriction{0.3, 0.4, {}}}}) {
         p.contact.friction = friction;
         const Result plain = run(p, 0.8);
         Request request;

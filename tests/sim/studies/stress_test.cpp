@@ -109,7 +109,7 @@ TEST(RepeatedEvents, OfABristleThatCanNeitherStickNorSlideEnd) {
     Problem p = fixed_cam(ModelKind::rigid);
     p.hub.radius = 0.1;
     p.contact.offset = 0.05;
-    p.contact.friction = StickSlipFriction{2, {}, {}, {}};
+    p.contact.friction = StickSlipFriction{2, {}, {}};
     p.initial = {0.75, -2, InitialShape::straight};
     const Result r = run(p, 0.15);
     EXPECT_FALSE(r.impacts.empty());
