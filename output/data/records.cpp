@@ -75,16 +75,11 @@ Node units(const sim::Problem& problem) {
     return map;
 }
 
-Node extrema_of(const sim::Result& result, const std::vector<sim::Channel>& channels) {
-    if (channels.size() != result.extrema.size())
-        throw std::logic_error("summary: " + std::to_string(channels.size()) + " channels for " +
-                               std::to_string(result.extrema.size()) + " extrema");
+Node extrema_node(const std::vector<ChannelExtremum>& extrema) {
     Node map = object_node();
-    for (std::size_t i = 0; i < channels.size(); ++i) {
-        const sim::Extremum& e = result.extrema[i];
-        add(map, sim::name(channels[i]),
+    for (const auto& [channel, e] : extrema)
+        add(map, sim::name(channel),
             object_node({{"min", e.min}, {"t_min", e.t_min}, {"max", e.max}, {"t_max", e.t_max}}));
-    }
     return map;
 }
 
@@ -166,7 +161,7 @@ void write_impacts(const Target& file, const sim::Result& result) {
 }
 
 std::string summary_json(const sim::Problem& problem, const sim::Result& result,
-                         const std::vector<sim::Channel>& extrema, const Work* work,
+                         const std::vector<ChannelExtremum>& extrema, const Work* work,
                          const std::vector<Agreement>& data) {
     Node steps = object_node(), counts = object_node();
     for (const auto& [method, count] : result.steps_by_method) add(steps, sim::name(method), count);
@@ -184,7 +179,7 @@ std::string summary_json(const sim::Problem& problem, const sim::Result& result,
                             {"rhs_evaluations", result.counters.rhs_evaluations},
                             {"wall_seconds", result.wall_seconds},
                             {"events", object_node({{"theta_zero", std::move(zeros)}})},
-                            {"extrema", extrema_of(result, extrema)},
+                            {"extrema", extrema_node(extrema)},
                             {"energy_residual_max", result.energy_residual_max},
                             {"energy_scale", result.energy_scale},
                             {"impacts", result.impacts.size()},

@@ -22,10 +22,13 @@ std::string impacts_json(const sim::Result& result);  // {"impacts": […], "col
 // The ending decides: .json, or .csv with the impacts alone. Throws UnsupportedOption for others, IoError.
 void write_impacts(const Target& file, const sim::Result& result);
 
-// `extrema`: the channels of Request::extrema, in the order of result.extrema. "units" lists all channels of the
-// problem.
+struct ChannelExtremum {
+    sim::Channel channel;
+    sim::Extremum extremum;
+};
+// "units" lists all channels of the problem.
 std::string summary_json(const sim::Problem& problem, const sim::Result& result,
-                         const std::vector<sim::Channel>& extrema, const Work* work = nullptr,
+                         const std::vector<ChannelExtremum>& extrema, const Work* work = nullptr,
                          const std::vector<Agreement>& data = {});
 
 // {"modes": [{"omega", "hz", "shape": [[x, y], …]}, …]}; omega and hz are null for a diverging mode.

@@ -48,11 +48,21 @@ StateOutput state_output(const SimulateArguments& args, const Scene& scene) {
     return state;
 }
 
+SummaryOutput summary_output(const SimulateArguments& args, const Scene& scene) {
+    const std::string file = args.summary.value_or("-");
+    require_ending_or_stdout("--summary", file, {".json"});
+    auto summary = std::get<SummaryOutput>(
+        read_output(object_node({{"type", SummaryOutput::kType}}), {&args.channels}, scene, args.scene, args.common));
+    summary.file = file;
+    summary.horizon = args.horizon;
+    return summary;
+}
+
 // Without a file name the table goes to standard output if its options were given, else the summary.
 std::vector<Output> simulate_outputs(const SimulateArguments& args, const Scene& scene) {
     std::vector<Output> outputs;
-    const bool has_rows = args.rate.any() || args.times.any();
-    if (args.trajectory || args.channels.any() || (has_rows && !args.shapes))
+    const bool has_rows = args.rate.any() || args.times.any(), has_summary = args.summary || args.horizon;
+    if (args.trajectory || (args.channels.any() && !has_summary) || (has_rows && !args.shapes))
         outputs.push_back(trajectory_output(args, scene));
     if (args.shapes) outputs.push_back(shapes_output(args, scene));
     if (args.impacts) {
@@ -60,11 +70,7 @@ std::vector<Output> simulate_outputs(const SimulateArguments& args, const Scene&
         outputs.push_back(ImpactsOutput{*args.impacts});
     }
     if (args.state || args.state_at.any()) outputs.push_back(state_output(args, scene));
-    if (args.summary || outputs.empty() || args.horizon) {
-        const std::string file = args.summary.value_or("-");
-        require_ending_or_stdout("--summary", file, {".json"});
-        outputs.push_back(SummaryOutput{file, args.horizon});
-    }
+    if (has_summary || outputs.empty()) outputs.push_back(summary_output(args, scene));
     return outputs;
 }
 
@@ -99,7 +105,8 @@ void add_simulate(Grammar& grammar) {
     app.option("--shapes", &args.shapes, "FILE", "Deflection along the beam against time, .csv or .npz");
     args.rate.add(app, "--rate", "rate", "HZ", "Of --trajectory (default: adaptive) and --shapes (default: 1000).");
     args.times.add_list(app, "--times", "times", "T,T,...", "In place of --rate.");
-    args.channels.add_list(app, "--channels", "channels", "CHANNEL,...", "Of --trajectory.");
+    args.channels.add_list(app, "--channels", "channels", "CHANNEL,...",
+                           "Of --trajectory, and of --summary those with extrema.");
     app.option("--impacts", &args.impacts, "FILE",
                "Impacts and collisions, .json or .csv; - is standard output (JSON)");
     args.state_at.add(app, "--state-at", "at", "T", "Write a scene that continues the motion.");

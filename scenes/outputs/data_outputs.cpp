@@ -149,9 +149,17 @@ static std::string write(const StateOutput& state, const DataFile& data, const D
 
 void SummaryOutput::visit(SceneVisitor& v) {
     visit_file(v, file, {".json"}, "-summary.json");
+    v.value("channels", channels_format(channels),
+            "Channels whose extrema are listed. By default theta, tip_deflection, contact_force, gap.");
     v.boolean("horizon", horizon,
               "Adds the intervals in which the motion is reproducible; needs further runs with tighter tolerances and "
               "another method.");
+}
+
+static std::vector<sim::Channel> extrema_channels(const SummaryOutput& summary) {
+    using Kind = sim::ChannelKind;
+    if (summary.channels.empty()) return {{Kind::theta}, {Kind::tip_deflection}, {Kind::contact_force}, {Kind::gap}};
+    return summary.channels;
 }
 
 void plan(Planner& planner, const SummaryOutput& summary, const ResolvedOutput& resolved) {
@@ -165,21 +173,24 @@ void plan(Planner& planner, const SummaryOutput& summary, const ResolvedOutput& 
     }
     request.zero_crossings = true;
     request.horizon = request.horizon || summary.horizon || !scene.data.empty();
-    if (request.extrema.empty())
-        for (const sim::Channel& channel : all_channels(scene.problem))
-            if (channel.kind != sim::ChannelKind::t && channel.kind != sim::ChannelKind::q_dot)
-                request.extrema.push_back(channel);
+    for (const sim::Channel& channel : extrema_channels(summary))
+        if (std::ranges::find(request.extrema, channel) == request.extrema.end()) request.extrema.push_back(channel);
     planner.add(std::move(data));
 }
 
-static std::string write(const SummaryOutput&, const DataFile& data, const DataSource& from) {
+static std::string write(const SummaryOutput& summary, const DataFile& data, const DataSource& from) {
     const Scene& scene = from.scene;
+    std::vector<output::ChannelExtremum> extrema;
+    for (const sim::Channel& channel : extrema_channels(summary)) {
+        const auto at = std::ranges::find(from.request.extrema, channel) - from.request.extrema.begin();
+        extrema.push_back({channel, from.run.extrema.at(static_cast<std::size_t>(at))});
+    }
     std::vector<output::Agreement> all;
     for (std::size_t i = 0; i < scene.data.size(); ++i)
         for (output::Agreement& each :
              agreements(scene.data[i].within(0, run_end(scene)), from.run.tables[data.tables[i]], from.run))
             all.push_back(std::move(each));
-    const std::string json = output::summary_json(from.scene.problem, from.run, from.request.extrema, &from.work, all);
+    const std::string json = output::summary_json(from.scene.problem, from.run, extrema, &from.work, all);
     from.file ? output::write_file(*from.file, json) : output::print_json(json);
     return from.run.reproducibility;
 }

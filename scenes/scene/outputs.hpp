@@ -91,7 +91,8 @@ struct StateOutput {
 struct SummaryOutput {
     static constexpr const char *kType = "summary", *kMeaning = "Counts, extrema, energy balance, warnings.";
     static constexpr OutputInputs kInputs{.data = true};
-    std::string file;  // .json
+    std::string file;                    // .json
+    std::vector<sim::Channel> channels;  // whose extrema it lists; empty: the most important ones
     bool horizon = false;
 
     void visit(SceneVisitor& v);

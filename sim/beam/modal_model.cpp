@@ -43,10 +43,18 @@ const ModalModel::Local& ModalModel::at(double x) const {
     if (here.x != x) {
         here.evaluate(tables_->shapes, x);
         here.shortened = false;
+        if (tables_->foreshortening && x == length_) {
+            here.h.resize(modes_, modes_);
+            tables_->foreshortening->matrix(here, here.h.data());
+        }
     }
     if (tables_->foreshortening && !here.shortened) {
         here.shortened = true;
-        if (x != 0) tables_->foreshortening->times(here, xi_ + 1, here.shortening);  // no shortening at the root
+        if (x == length_)
+            Eigen::Map<Eigen::VectorXd>(here.shortening, modes_).noalias() =
+                here.h * Eigen::Map<const Eigen::VectorXd>(xi_ + 1, modes_);
+        else if (x != 0)  // no shortening at the root
+            tables_->foreshortening->times(here, xi_ + 1, here.shortening);
     }
     return here;
 }

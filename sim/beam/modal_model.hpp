@@ -52,6 +52,7 @@ class ModalModel final : public Model {
     struct Local : ShapesAt {
         bool shortened = false;             // `shortening` is that of the present state
         double shortening[kMaxModes] = {};  // H(x) q (S5a)
+        Eigen::MatrixXd h;                  // H(x) at the tip, where it is needed again and again
     };
     void state_changed() override;
     const Local& at(double x) const;

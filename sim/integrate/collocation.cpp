@@ -39,7 +39,6 @@ Collocation::Collocation() {
     }
     for (int k = 0; k < kNodes; ++k) {
         const Lanes w = weights_to(c[k]);
-        slope_at[static_cast<std::size_t>(k)] = derive[static_cast<std::size_t>(k) + 1][1];
         for (std::size_t l = 0; l < kNodes; ++l) {
             integrate[l][k] = w[static_cast<int>(l)];
             slope[l][k] = derive[static_cast<std::size_t>(k) + 1][1][static_cast<int>(l)];

@@ -22,8 +22,7 @@ struct Collocation {
     std::array<std::array<Lanes, kNodes>, kNodes + 1> derive;
     // legendre[j][l]: nodal values to the coefficient of P_j(2s − 1).
     std::array<Lanes, kNodes> legendre;
-    std::array<Lanes, kNodes> slope;     // [l][k]: ℓ_l′(c_k)
-    std::array<Lanes, kNodes> slope_at;  // [k][l]: the same, transposed
+    std::array<Lanes, kNodes> slope;  // [l][k]: ℓ_l′(c_k)
     // monomial[j][l]: nodal values to the coefficient of (2s − 1)ʲ.
     std::array<Lanes, kNodes> monomial;
 

@@ -41,10 +41,6 @@ inline constexpr double kFastRadians = 14, kMostDampingOfFast = 0.1;
 // In sustained contact, vibration that turns by more radians in a step is projected; growth by it begins at 14. (S52c)
 inline constexpr double kAliasedRadians = 7;
 // Bounds within a step.
-inline constexpr double kNodeOvershoot = 1.5;  // largest value of a smooth polynomial over that at the nodes; any: 4.5
-// Of the Legendre polynomial P₈ on a step: its largest integral from the start, and the integral of that over half of
-// the step; and the mean distance of the nodes, all of the step.
-inline constexpr double kLegendreIntegral = 0.01604, kLegendreTurning = 0.00453, kNodeGap = 1.0 / 9;
 inline constexpr double kMissedTurning = 1e-6;    // of Θ̇, which its nodal polynomial may miss at any tolerance
 inline constexpr double kFarthestFromNode = 0.1;  // of the step: no instant is farther from the nearest node
 

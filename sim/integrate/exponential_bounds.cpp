@@ -104,16 +104,9 @@ const MotionBounds* ExponentialSegment::bounds() const {
     const LegendreRange turning = legendre_range(theta_dot);
     const double spread = turning.spread + (std::fabs(turning.mean) + turning.spread) * missed_turning(sum);
     const double low = turning.mean - spread, high = turning.mean + spread;
-    b.ripple = sum.turn;
-    b.ripple_rate = sum.turn_rate;
     b.theta_dot = std::max(std::fabs(low), std::fabs(high));
     b.theta_ddot = form_->prescribed ? turning.slope / h : hub_acceleration(sum, b.theta_dot);
     bound_points(sum, b);
-    b.rate_low = low - sum.turn_rate;
-    b.rate_high = high + sum.turn_rate;
-    const double first = form_->prescribed ? drive_.motion(t0).angle : theta0;
-    b.angle_low = first + std::min(0.0, low) * h - sum.turn;
-    b.angle_high = first + std::max(0.0, high) * h + sum.turn;
     return &b;
 }
 

@@ -17,7 +17,7 @@ namespace beamcam::sim {
 
 struct VibrationBounds;
 
-class ExponentialSegment final : public StoredSegment {
+class ExponentialSegment final : public Segment {
   public:
     ExponentialSegment(std::shared_ptr<const ModalForm> modal_form, const DriveLaw& drive_law, int state_size);
     void value(double t, double* y) const override;
@@ -25,7 +25,6 @@ class ExponentialSegment final : public StoredSegment {
     double coordinate(double t, std::size_t index, double* y) const override;
     void coordinates(double t, double* y) const override;
     const MotionBounds* bounds() const override;
-    const ModalBounds* modal_bounds() const override;
     const TouchSamples* touch() const override { return touching ? &samples : nullptr; }
     // A step of this length; its numbers will change.
     void begin(double length, const FastVibrations& fast) {
@@ -38,11 +37,8 @@ class ExponentialSegment final : public StoredSegment {
     void changed() {
         expanded_ = -1;
         transposed_ = hub_known_ = false;
-        bounds_known_ = modal_bounds_known_ = vibration_works_known_ = false;
+        bounds_known_ = vibration_works_known_ = false;
     }
-
-    SegmentKind numbers(std::vector<double>& out) const override;
-    void load(double begin, double end_time, std::span<const double> numbers) override;
 
     double h = 0;                // of the collocation; t1 may lie before t0 + h
     double theta0 = 0, p0 = 0;   // Θ and ∂T/∂Θ̇ at t0
@@ -74,9 +70,6 @@ class ExponentialSegment final : public StoredSegment {
 
   private:
     static constexpr std::size_t kPoints = kNodes + 1;  // the start of the step and its nodes
-    // Calls visit(std::span<double>) on all numbers that determine `value`, `bounds` and `touch`, besides t0 and t1.
-    template <class Visit>
-    void each_number(Visit&& visit);
     struct Hub {
         StepPowers<kNodes + 1> turn, momentum;  // integrals of Θ̇ and ṗ
     };
@@ -104,19 +97,6 @@ class ExponentialSegment final : public StoredSegment {
     double missed_turning(const VibrationBounds& sum) const;
     double hub_acceleration(const VibrationBounds& sum, double fastest) const;
     void bound_points(const VibrationBounds& sum, MotionBounds& b) const;
-    struct ForcingBounds;
-    struct Distances {  // of the modes of a group from their forcing: bounds of them and their rates
-        Lanes value, rate;
-    };
-    ForcingBounds forcing_bounds(std::size_t group, const Lanes* legendre) const;
-    Distances distances_of(std::size_t group, const ForcingBounds& forcing) const;
-    void set_distance_of_decays(std::size_t mode, const ForcingBounds& forcing, Distances& out) const;
-    Lanes free_vibrations(std::size_t group) const;
-    void set_vibration(const Oscillator& oscillator, double lag, double amplitude, ModalBounds::Mode& bounds) const;
-    void set_decays(std::size_t mode, ModalBounds::Mode& bounds) const;
-    void bound_modes(std::size_t group, const ForcingBounds& forcing, ModalBounds::Mode* modes) const;
-    double work_left_out() const;
-    double missed_work(std::size_t group, const Lanes* legendre) const;
     double torque_on_vibration(double s, const double* y) const;
 
     std::shared_ptr<const ModalForm> form_;
@@ -125,8 +105,6 @@ class ExponentialSegment final : public StoredSegment {
     mutable bool bounds_known_ = false;
     mutable MotionBounds bounds_;
     mutable std::vector<Largest> largest_;  // valid with `bounds_`
-    mutable bool modal_bounds_known_ = false;
-    mutable ModalBounds modal_bounds_;
     mutable bool vibration_works_known_ = false;
     mutable VibrationWorks vibration_works_;
     mutable bool hub_known_ = false;

@@ -30,29 +30,6 @@ void extend(double s, std::size_t n, const double* start, const double* rows, do
     }
 }
 
-// Start, end and the seven rows, one after the other.
-class StoredRk8 final : public StoredSegment {
-  public:
-    explicit StoredRk8(int size) : n_(static_cast<std::size_t>(size)) {}
-    void load(double begin, double end, std::span<const double> numbers) override {
-        if (numbers.size() != (2 + kDenseRows) * n_)
-            throw std::invalid_argument("a segment of the trajectory has the wrong length");
-        t0 = begin;
-        t1 = end;
-        start_ = numbers.data();
-    }
-    void value(double t, double* y) const override {
-        if (t == t1)
-            std::copy_n(start_ + n_, n_, y);
-        else
-            extend((t - t0) / (t1 - t0), n_, start_, start_ + 2 * n_, y);
-    }
-
-  private:
-    std::size_t n_;
-    const double* start_ = nullptr;
-};
-
 class Rk8 final : public Integrator, private Segment {
   public:
     Rk8(Ode& ode, double rtol, double atol)
@@ -100,14 +77,6 @@ class Rk8 final : public Integrator, private Segment {
         }
         if (!dense_built_) const_cast<Rk8*>(this)->build_dense();
         extend((t - t0) / (t1 - t0), n_, y_.data(), dense_.data(), y);
-    }
-
-    SegmentKind numbers(std::vector<double>& out) const override {
-        if (!dense_built_) const_cast<Rk8*>(this)->build_dense();
-        out.insert(out.end(), y_.begin(), y_.end());
-        out.insert(out.end(), end_.begin(), end_.end());
-        out.insert(out.end(), dense_.begin(), dense_.end());
-        return SegmentKind::rk8;
     }
 
   private:
@@ -239,7 +208,5 @@ class Rk8 final : public Integrator, private Segment {
 std::unique_ptr<Integrator> make_rk8(Ode& ode, double rtol, double atol) {
     return std::make_unique<Rk8>(ode, rtol, atol);
 }
-
-std::unique_ptr<StoredSegment> make_stored_rk8(int size) { return std::make_unique<StoredRk8>(size); }
 
 }  // namespace beamcam::sim

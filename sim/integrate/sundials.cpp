@@ -38,23 +38,6 @@ void evaluate_taylor(std::span<const double> numbers, std::size_t n, double t, d
     }
 }
 
-class StoredTaylor final : public StoredSegment {
-  public:
-    explicit StoredTaylor(int size) : n_(static_cast<std::size_t>(size)) {}
-    void load(double begin, double end, std::span<const double> numbers) override {
-        if (numbers.size() < 1 + n_ || (numbers.size() - 1) % n_ != 0)
-            throw std::invalid_argument("a segment of the trajectory has the wrong length");
-        t0 = begin;
-        t1 = end;
-        polynomial_ = numbers;
-    }
-    void value(double t, double* y) const override { evaluate_taylor(polynomial_, n_, t, y); }
-
-  private:
-    std::size_t n_;
-    std::span<const double> polynomial_;
-};
-
 // Why a step failed, by CVODE's flag.
 const char* reason_of(int flag) {
     switch (flag) {
@@ -182,11 +165,6 @@ class Cvode final : public Integrator, private Segment {
 
     void value(double t, double* y) const override { evaluate_taylor(polynomial_, n_, t, y); }
 
-    SegmentKind numbers(std::vector<double>& out) const override {
-        out.insert(out.end(), polynomial_.begin(), polynomial_.end());
-        return SegmentKind::taylor;
-    }
-
   private:
     void create(double t) {
         memory_.reset(CVodeCreate(bdf_ ? CV_BDF : CV_ADAMS, context_));
@@ -265,7 +243,5 @@ class Cvode final : public Integrator, private Segment {
 std::unique_ptr<Integrator> make_sundials(Method method, Ode& ode, double rtol, double atol) {
     return std::make_unique<Cvode>(method, ode, rtol, atol);
 }
-
-std::unique_ptr<StoredSegment> make_stored_taylor(int size) { return std::make_unique<StoredTaylor>(size); }
 
 }  // namespace beamcam::sim

@@ -32,8 +32,9 @@ const ContactState& ChannelEvaluator::contact() {
 
 const System::EnergyBalance& ChannelEvaluator::energy_balance() {
     if (!balance_known_) {
-        set_energy_balance(balance_without_beam());
+        balance_ = balance_without_beam();
         balance_.energies = model().energies();
+        balance_known_ = true;
     }
     return balance_;
 }
@@ -47,7 +48,8 @@ System::EnergyBalance ChannelEvaluator::balance_without_beam() {
 const Energies& ChannelEvaluator::energies() {
     if (energies_known_) return energies_;
     if (balance_known_ || !system_.phase().touching) return energy_balance().energies;
-    set_energies(model().energies());
+    energies_ = model().energies();
+    energies_known_ = true;
     return energies_;
 }
 
@@ -62,21 +64,6 @@ void ChannelEvaluator::set_gap(double gap, double force) {
     c.gap = gap;
     c.force = force;
     set_contact(c);
-}
-
-void ChannelEvaluator::set_energy_balance(const System::EnergyBalance& balance) {
-    balance_ = balance;
-    balance_known_ = true;
-}
-
-void ChannelEvaluator::set_energies(const Energies& energies) {
-    energies_ = energies;
-    energies_known_ = true;
-}
-
-void ChannelEvaluator::set_hub_acceleration(double acceleration) {
-    hub_acceleration_ = acceleration;
-    acceleration_known_ = true;
 }
 
 // A prescribed hub has the angle of its drive.
@@ -200,7 +187,8 @@ double ChannelEvaluator::hub_acceleration(const ContactState& c) {
     }
     double total = 0;
     for (int i = 0; i < system_.coordinates(); ++i) total += beam.hub_row()[i] * acc[i];
-    set_hub_acceleration(total);
+    hub_acceleration_ = total;
+    acceleration_known_ = true;
     return hub_acceleration_;
 }
 

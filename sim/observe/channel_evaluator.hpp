@@ -23,21 +23,19 @@ class ChannelEvaluator {
     double value_of_coordinates(Channel channel, double t, const double* y);
     Pose pose(int stations);
     System& system() { return system_; }
+    const System& system() const { return system_; }
     Model& model();  // in that state
     const System::EnergyBalance& energy_balance();
     const Energies& energies();
-    // Each of these spares a computation whose result at this instant is available.
-    void set_energy_balance(const System::EnergyBalance& balance);
-    void set_energies(const Energies& energies);
-    void set_hub_acceleration(double acceleration);
-    // Enough for the energy balance; other channels of the contact are undefined until the next `set`.
+    // Both spare a computation whose result at this instant is available. The first is enough for the energy balance;
+    // other channels of the contact are undefined until the next `set`.
     void set_gap(double gap, double force);
     void set_contact(const ContactState& contact);
     const ContactState& contact();
-    // θ̈ with the forces of this contact, which only touching has.
-    double hub_acceleration(const ContactState& c);
 
   private:
+    // θ̈ with the forces of this contact, which only touching has.
+    double hub_acceleration(const ContactState& c);
     System::EnergyBalance balance_without_beam();  // perhaps with the beam's energies
     double ledger(Ledger entry) const { return y_[static_cast<std::size_t>(system_.controlled + entry)]; }
     double rate_of_mode(int index) const;

@@ -20,25 +20,14 @@ struct ChannelLabel {
     bool rate = false;
 };
 
-// Properties of a channel that its evaluation and its bounds use.
+// Properties of a channel that its evaluation uses.
 struct ChannelTraits {
     bool needs_cam = false;             // undefined without a cam
-    bool needs_contact = false;         // geometry or forces of the contact
-    bool needs_gap = false;             // in contact
+    bool needs_contact = false;         // its geometry
+    bool needs_force = false;           // forces or energy of the contact, which flight has not
     bool needs_vibration_work = false;  // what damping and drive do to the vibration
-    bool of_gap = false;                // a function of the gap and its rate; but for the gap, zero in flight
     bool of_mode = false;               // of one modal coordinate: its name contains the number of the mode
-    bool of_hub = false;
-    bool of_tip = false;
-    bool of_beam_energy = false;
     bool separation = false;
-    bool monotone = false;         // largest and smallest at ends, where the contact follows its law and the cam turns
-    bool zero_where_held = false;  // but for errors, where contact is a constraint
-    bool zero_at_rest = false;     // but for errors, where nothing moves: not searched there
-    // ChannelSensitivity bounds how it depends on the modes; else extrema are searched by samples, which is slower.
-    bool bounded = false;
-    bool estimated() const { return of_tip || separation; }
-    bool by_samples() const { return !bounded && !monotone; }
 };
 
 enum class ChannelKind {

@@ -1,50 +1,22 @@
-// Numerical constants of extrema and their bounds, curves, stored trajectories and warnings, each with its reason.
+// Numerical constants of extrema, curves, records and warnings, each with its reason.
 #pragma once
 
 #include <cstddef>
 
 namespace beamcam::sim {
 
-// ---- the search of extrema ----
-// Share of the best value below which a rise is not searched for. The error of the energy balance is rounding and
-// truncation: its digits do not matter.
-inline constexpr double kNegligibleRise = 1e-10, kNegligibleImbalance = 1e-3;
-inline constexpr double kValueRounding = 1e-14;  // of the channel's largest magnitude: no less is searched for
-// The most intervals that a search halves in one step: these, and these for each radian of the fastest vibration, but
-// no more than the third; and all of a run: so many, and for each of its steps. Many times more than a valid motion
-// needs. A vibration that neither grows nor decays over millions of periods has no end otherwise.
-inline constexpr double kFewestHalvings = 20'000, kHalvingsPerRadian = 32, kMostHalvings = 50'000;
-inline constexpr long kHalvingsOfRun = 3'000'000, kHalvingsPerStep = 1000;
-inline constexpr double kRestTolerances = 10;               // times `atol`: a beam whose rates are smaller is at rest
-inline constexpr long kEvaluationsPerPoll = 256;            // of a channel, between two chances to interrupt the search
-inline constexpr std::size_t kMostKeptNumbers = 4'000'000;  // of kept steps: 32 MB
-inline constexpr std::size_t kNumbersPerDrop = 150'000;     // of kept steps, until those that are beaten are dropped
-// Kept steps of a channel beyond which its bounds exclude too few.
-inline constexpr std::size_t kManyKept = 1024;
-// Parabolas at a crest: each squares the distance from it, or halves the interval.
-inline constexpr int kMostParabolas = 8;
-inline constexpr double kParabolaMargin = 0.02;     // of the interval: new points keep this distance from its ends
-inline constexpr double kParabolaConverged = 1e-9;  // of the interval: √ of rounding, where the crest is flat
-// Of the amplitude: an error of the closed form of a mode, beyond which it is not used; between two crests it matters
-// in second order. And how many times as large as at the nodes it is taken.
-inline constexpr double kFormRounding = 1e-7, kFormMargin = 4;
-inline constexpr double kSignRounding = 1e-14;  // of the sum of magnitudes: values below it have no sign
-
-// ---- bounds within a step ----
-inline constexpr double kFollowedRadians = 2;  // [rad] of a vibration: a polynomial of degree 7 follows it to 10⁻⁷
-inline constexpr double kNegligibleVibration = 1e-9;  // of the largest rate of a mode
-// A step in which a vibration decays by more than the first, e⁻⁸ = 3·10⁻⁴, is searched in parts; each is eight times as
+// ---- extrema and crossings ----
+inline constexpr double kNegligibleRise = 1e-6;     // of the channel's range: a higher value is not searched for
+inline constexpr double kNegligibleEnergy = 1e-10;  // of the vibration: 10⁻⁵ of its rates
+inline constexpr double kSamplesPerRadian = 1.3;    // of a vibration: eight in a period
+inline constexpr double kMostSamples = 1e5;         // between two nodes of a step
+// The larger of the last two Legendre coefficients of the nodal values, times this, is what a channel may do between
+// the nodes: the phases of several vibrations make them as small as a quarter of the sum of their amplitudes.
+inline constexpr double kStrayByDecay = 6;
+// A step in which a vibration decays by more than the first, e⁻⁸ = 3·10⁻⁴, is sampled in parts; each is eight times as
 // long as the one before.
-inline constexpr double kFadedRadians = 8, kPartRatio = 0.125;
-inline constexpr double kBentContactShift = 2;  // a bent beam moves the contact by at most this times a straight one
-inline constexpr double kProductFrequency = 3;  // products of up to three modes vibrate no faster than this many times
-inline constexpr double kProductSwing = 4;      // and swing by at most this many times the share of one mode
-inline constexpr std::size_t kMissedTerms = 2;  // of the eight of a polynomial: twice the last are its error
-inline constexpr double kWidestNodeGap = 0.2;   // of the step: no instant is farther from a node than half of this
-// Beyond the outer nodes the line through two of them is extended by a quarter of their distance.
-inline constexpr double kBeyondNodes = 1.25;
-inline constexpr double kWholeStep = 1e-9;   // of the step: rounding of its ends
-inline constexpr double kSlopeProbe = 1e-3;  // of the penetration: the slope of the law just beyond the deepest point
+inline constexpr double kFadedDecays = 8, kPartRatio = 0.125;
+inline constexpr double kSignRounding = 1e-14;  // of the largest sample: values below it have no sign
 
 // ---- curves ----
 inline constexpr int kMostCurveHalvings = 8;     // of the piece between two rows

@@ -5,72 +5,69 @@
 
 #include "sim/base/numerics.hpp"
 #include "sim/observe/constants.hpp"
-#include "sim/observe/interval_search.hpp"
 
 namespace beamcam::sim {
 namespace {
 
-// Calls found(a, b) for every interval in which the channel passes the level once, with values above the level.
-// Values below rounding of `scale` or of the samples have no sign.
-template <class Found>
-void each_sign_change(StepChannels& step, const SegmentInterval& s, Channel channel, double level, double scale,
-                      Found&& found) {
-    const auto above = [&](double t) { return step.value(s, channel, t) - level; };
-    for (const SegmentInterval& part : step.parts(s, channel)) {
-        step.begin(part);
-        StepChannels::Samples values = step.sample(part, channel);
-        double largest = scale;
-        for (double& value : values) {
-            value -= level;
-            largest = std::max(largest, std::fabs(value));
-        }
-        // A start from rest is no crossing, whatever its rounding: no earlier step determines the sign.
-        if (part.from == 0 && std::fabs(values[0]) <= kSignRounding * largest) values[0] = 0;
-        const Variation variation = step.variation(part, channel, values);
-        const auto [low, high] = std::ranges::minmax(values);
-        if (std::max(low, -high) > variation.strays(kWidestNodeGap * (part.to - part.from))) continue;
-        for (std::size_t k = 0; k + 1 < values.size(); ++k)
-            sign_changes(above, variation, kSignRounding * largest, {sample_time(part, k), values[k]},
-                         {sample_time(part, k + 1), values[k + 1]}, found);
+// The points of the channel above the level, in the order of time: its samples, and the turning points beyond the level
+// between samples on one side of it. Values below rounding of the samples are zero at the start of the motion: no
+// earlier step determines the sign of a start from rest.
+std::vector<PlanePoint> points_of(StepSamples& step, const SegmentInterval& s, Channel channel, double level) {
+    step.begin(s);
+    const Channel one[] = {channel};
+    const StepSamples::Series series =
+        step.sample(one, [&](std::size_t, double low, double high,
+                             double stray) { return low - stray < level && level < high + stray; })
+            .front();
+    std::vector<PlanePoint> points;
+    double largest = std::fabs(level);
+    for (std::size_t k = 0; k < series.t.size(); ++k) {
+        points.push_back({series.t[k], series.value[k] - level});
+        largest = std::max(largest, std::fabs(points.back().y));
     }
+    if (s.from == 0 && std::fabs(points.front().y) <= kSignRounding * largest) points.front().y = 0;
+    std::vector<PlanePoint> turns;
+    for (std::size_t k = 1; k + 1 < points.size(); ++k) {
+        const double side = points[k].y > 0 ? -1 : 1;
+        const auto turned = [&](std::size_t i) { return PlanePoint{points[i].x, side * points[i].y}; };
+        if (turned(k - 1).y > 0 || turned(k + 1).y > 0) continue;
+        const auto top = vertex(turned(k - 1), turned(k), turned(k + 1));
+        if (!top || !(top->y > -kParabolaError * (top->y - turned(k).y))) continue;
+        const auto f = [&](double t) { return side * (step.value(channel, t) - level); };
+        const PlanePoint turn = climb(f, turned(k - 1), turned(k), turned(k + 1), 0, kSignRounding * largest);
+        if (turn.y > kSignRounding * largest) turns.push_back({turn.x, side * turn.y});
+    }
+    points.insert(points.end(), turns.begin(), turns.end());
+    std::ranges::sort(points, {}, &PlanePoint::x);
+    return points;
 }
 
 }  // namespace
 
-void find_apexes(StepChannels& step, const SegmentInterval& s, std::vector<Apex>& found) {
-    const MotionBounds* motion = s.segment->bounds();
-    if (motion && (motion->rate_low > 0 || motion->rate_high < 0)) return;
-    step.begin(s);
-    const auto rate = [&](double t) { return step.value(s, {ChannelKind::theta_dot}, t); };
-    const double scale = motion ? motion->theta_dot + motion->ripple_rate : 0;
-    each_sign_change(step, s, {ChannelKind::theta_dot}, 0, scale, [&](const TimedValue& a, const TimedValue& b) {
-        if (!(a.value > 0)) return;
-        const double t = find_root(rate, a.t, b.t, a.value, b.value);
-        found.push_back({t, step.value(s, {ChannelKind::theta}, t)});
-    });
+void find_crossings(StepSamples& step, const SegmentInterval& s, Channel channel, double level,
+                    std::vector<LevelCrossing>& found) {
+    const std::vector<PlanePoint> points = points_of(step, s, channel, level);
+    const auto above = [&](double t) { return step.value(channel, t) - level; };
+    for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+        const PlanePoint &a = points[k], &b = points[k + 1];
+        // A zero belongs to the interval that it ends. Where the beam bends beyond its model, there may be no value.
+        if ((a.y < 0 && b.y >= 0) || (a.y > 0 && b.y <= 0))
+            found.push_back({find_root(above, a.x, b.x, a.y, b.y), a.y < 0});
+    }
 }
 
-void find_zero_crossings(StepChannels& step, const SegmentInterval& s, std::vector<ZeroCrossing>& found) {
-    const MotionBounds* motion = s.segment->bounds();
-    if (motion && (motion->angle_low > 0 || motion->angle_high < 0)) return;
+void find_apexes(StepSamples& step, const SegmentInterval& s, std::vector<Apex>& found) {
+    std::vector<LevelCrossing> crossings;
+    find_crossings(step, s, {ChannelKind::theta_dot}, 0, crossings);
+    for (const LevelCrossing& crossing : crossings)
+        if (!crossing.rises) found.push_back({crossing.t, step.value({ChannelKind::theta}, crossing.t)});
+}
+
+void find_zero_crossings(StepSamples& step, const SegmentInterval& s, std::vector<ZeroCrossing>& found) {
     std::vector<LevelCrossing> crossings;
     find_crossings(step, s, {ChannelKind::theta}, 0, crossings);
     for (const LevelCrossing& crossing : crossings)
-        found.push_back({crossing.t, step.value(s, {ChannelKind::theta_dot}, crossing.t)});
-}
-
-void find_crossings(StepChannels& step, const SegmentInterval& s, Channel channel, double level,
-                    std::vector<LevelCrossing>& found) {
-    step.begin(s);
-    const auto above = [&](double t) { return step.value(s, channel, t) - level; };
-    // Below rounding of the hub's ripple θ has no sign.
-    const MotionBounds* motion = s.segment->bounds();
-    const double scale = motion && channel.kind == ChannelKind::theta ? motion->ripple : 0;
-    each_sign_change(step, s, channel, level, std::max(scale, std::fabs(level)),
-                     [&](const TimedValue& a, const TimedValue& b) {
-                         if (a.value == 0) return;
-                         found.push_back({find_root(above, a.t, b.t, a.value, b.value), a.value < 0});
-                     });
+        found.push_back({crossing.t, step.value({ChannelKind::theta_dot}, crossing.t)});
 }
 
 }  // namespace beamcam::sim

@@ -1,10 +1,11 @@
-// Where a channel passes a level within a step: zero crossings of θ, its maxima (apexes), and sections. All of them are
-// found, however close together, by bounds of how far the channel varies between samples. MODEL.md §12, (S59).
+// Where a channel passes a level within a step: zero crossings of θ, its maxima (apexes), and sections. The channel is
+// sampled as for extrema; two crossings between neighbouring samples are found by the parabola through them.
+// MODEL.md §12, (S59).
 #pragma once
 
 #include <vector>
 
-#include "sim/observe/step_channels.hpp"
+#include "sim/observe/step_samples.hpp"
 
 namespace beamcam::sim {
 
@@ -14,9 +15,9 @@ struct LevelCrossing {
 };
 
 // Each appends to `found` in the order of time.
-void find_apexes(StepChannels& step, const SegmentInterval& s, std::vector<Apex>& found);
-void find_zero_crossings(StepChannels& step, const SegmentInterval& s, std::vector<ZeroCrossing>& found);
-void find_crossings(StepChannels& step, const SegmentInterval& s, Channel channel, double level,
+void find_apexes(StepSamples& step, const SegmentInterval& s, std::vector<Apex>& found);
+void find_zero_crossings(StepSamples& step, const SegmentInterval& s, std::vector<ZeroCrossing>& found);
+void find_crossings(StepSamples& step, const SegmentInterval& s, Channel channel, double level,
                     std::vector<LevelCrossing>& found);
 
 }  // namespace beamcam::sim

@@ -25,14 +25,13 @@ double end_of(const Request& request) {
     return end;
 }
 
-Recorder::Recorder(const System& system, const Request& request, const std::function<void()>& poll,
-                   SharedSamples* shared)
+Recorder::Recorder(const System& system, const Request& request, SharedSamples* shared)
     : request_(request),
       end_(end_of(request)),
       evaluator_(system),
       samples_(request, evaluator_, result_, shared),
       impacts_(evaluator_, result_),
-      extrema_(std::make_unique<ExtremaFinder>(system, request.extrema, poll)),
+      extrema_(std::make_unique<ExtremaFinder>(system, request.extrema)),
       y_(static_cast<std::size_t>(system.size)) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     if (request.impact_peaks) summary_.impact.emplace();
@@ -50,7 +49,7 @@ void Recorder::begin(const Phase& phase, const std::vector<double>& y) {
     const Problem& problem = evaluator_.system().problem();
     const double lever = problem.hub.radius + 0.5 * problem.beam.length;
     summary_.energy_scale = std::fabs(problem.beam.line_density() * problem.beam.length * problem.gravity * lever);
-    extrema_->begin(start_total_, y.data(), result_.extrema);
+    extrema_->set_start_energy(start_total_);
     note_balance();
 }
 
@@ -83,9 +82,7 @@ void Recorder::record(const SegmentInterval& s, const SegmentSummary* known) {
         impact->force_peak = summary_.impact ? summary_.impact->force : std::nullopt;
         impact->penetration_peak = summary_.impact ? summary_.impact->penetration : kNan;
     }
-    // In contact the balance depends on how the gap was found.
-    const bool shared = !known && !evaluator_.system().phase().touching;
-    if (lasts) extrema_->step(s, shared ? &evaluator_.energy_balance() : nullptr, result_.extrema);
+    if (lasts) extrema_->step(s, result_.extrema);
 }
 
 void Recorder::take_states(const SegmentInterval& s) {
@@ -107,7 +104,7 @@ void Recorder::find_peaks(const SegmentInterval& s, const SegmentSummary* known)
 }
 
 void Recorder::find_events(const SegmentInterval& s, const SegmentSummary* known) {
-    StepChannels& step = extrema_->step_channels();
+    StepSamples& step = extrema_->samples();
     const auto find = [&](bool wanted, auto SegmentSummary::*events, auto search, auto& all) {
         auto& found = summary_.*events;
         found.reset();
@@ -127,19 +124,15 @@ void Recorder::note_balance() {
     summary_.energy_residual_max = std::max(summary_.energy_residual_max, std::fabs(balance.total() - start_total_));
 }
 
-// Where a step ends and, in contact, where only the dense output has the force, within it.
+// Where a step ends.
 void Recorder::record_balance(const SegmentInterval& s) {
-    const TouchSamples* samples = s.segment->touch();
     evaluator_.system().search_again();
-    for (const double share : {1.0 / 3, 2.0 / 3, 1.0}) {
-        if (share < 1 && (!impacts_.open() || samples)) continue;
-        const double t = share < 1 ? s.from + share * (s.to - s.from) : s.to;
-        s.segment->value(t, y_.data());
-        evaluator_.set(t, y_.data());
-        constexpr int kLast = TouchSamples::kCount - 1;
-        if (samples && t == s.segment->t1) evaluator_.set_gap(samples->gap[kLast], samples->force[kLast]);
-        note_balance();
-    }
+    s.segment->value(s.to, y_.data());
+    evaluator_.set(s.to, y_.data());
+    constexpr int kLast = TouchSamples::kCount - 1;
+    const TouchSamples* samples = s.segment->touch();
+    if (samples && s.to == s.segment->t1) evaluator_.set_gap(samples->gap[kLast], samples->force[kLast]);
+    note_balance();
 }
 
 void Recorder::touch(double t, const double* y, const ContactState& contact) {
@@ -152,7 +145,6 @@ void Recorder::finish(double t, const double* y, const RunStatistics& statistics
     finished_ = true;
     samples_.finish();
     impacts_.finish(t, y);
-    extrema_->finish(result_.extrema);
     // Channels that are undefined all along have no extrema.
     for (Extremum& e : result_.extrema)
         if (e.min > e.max) e = {kNan, kNan, kNan, kNan};
@@ -168,9 +160,7 @@ void Recorder::finish(double t, const double* y, const RunStatistics& statistics
                                     std::pair{statistics.fallbacks.method, statistics.fallbacks.steps}})
         if (steps > 0) result_.steps_by_method.emplace_back(by, steps);
     result_.beyond_model = bends_beyond(problem, summary_.largest_elastic);
-    RunStatistics all = statistics;
-    all.fallbacks.searches = extrema_->incomplete();
-    result_.warnings = warnings(problem, result_, all, summary_.largest_elastic);
+    result_.warnings = warnings(problem, result_, statistics, summary_.largest_elastic);
     warn_of_missed_peaks(request_, result_);
     if (samples_.has_full_table())
         result_.warnings.push_back(fmt::format(

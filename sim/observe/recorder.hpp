@@ -2,7 +2,6 @@
 // balance. It evaluates accepted segments only, through its own System, so recording never changes a bit of the motion.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <vector>
 
@@ -16,8 +15,8 @@ class ExtremaFinder;
 
 class Recorder {
   public:
-    // `poll`: called now and then during long work; may throw. `shared`: with the recorders of other requests.
-    Recorder(const System& system, const Request& request, const std::function<void()>& poll, SharedSamples* shared);
+    // `shared`: with the recorders of other requests.
+    Recorder(const System& system, const Request& request, SharedSamples* shared);
     Recorder(const Recorder&) = delete;  // its parts refer to each other
     ~Recorder();
     Recorder& operator=(const Recorder&) = delete;

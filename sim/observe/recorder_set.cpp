@@ -5,11 +5,10 @@
 
 namespace beamcam::sim {
 
-RecorderSet::RecorderSet(const System& system, std::span<const Request> requests, Poll poll)
-    : poll_(std::move(poll)), y_(static_cast<std::size_t>(system.size)) {
+RecorderSet::RecorderSet(const System& system, std::span<const Request> requests)
+    : y_(static_cast<std::size_t>(system.size)) {
     for (const Request& request : requests) {
-        recorders_.emplace_back(
-            system, request, [this] { this->poll(); }, requests.size() > 1 ? &shared_ : nullptr);
+        recorders_.emplace_back(system, request, requests.size() > 1 ? &shared_ : nullptr);
         end_ = std::max(end_, recorders_.back().end());
     }
 }
@@ -30,7 +29,6 @@ void RecorderSet::begin(const Phase& phase, const std::vector<double>& y) {
 void RecorderSet::record(const Segment& segment, double from, double to, bool event,
                          const StatisticsSource& statistics) {
     const SegmentSummary* known = nullptr;
-    reached_ = to;
     shared_ = {};
     each_unfinished([&](Recorder& r) {
         if (r.end() < to || (r.end() == to && !event)) {

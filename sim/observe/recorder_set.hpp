@@ -16,15 +16,9 @@ class RecorderSet {
     // The statistics where the integration stands; called after an interval was recorded.
     using StatisticsSource = std::function<RunStatistics()>;
 
-    // `poll`: called with the time that is reached, now and then during long work; may throw to end it.
-    using Poll = std::function<void(double t)>;
-
-    RecorderSet(const System& system, std::span<const Request> requests, Poll poll = {});
+    RecorderSet(const System& system, std::span<const Request> requests);
     double end() const { return end_; }  // last instant of all requests [s]
     bool done() const;                   // every request is complete
-    void poll() {
-        if (poll_) poll_(reached_);
-    }
 
     void begin(const Phase& phase, const std::vector<double>& y);
     // From `from` to `to`, where an event follows or not.
@@ -42,8 +36,6 @@ class RecorderSet {
     template <class F>
     void each_unfinished(F&& visit);
 
-    Poll poll_;
-    double reached_ = 0;
     SharedSamples shared_;  // of the step that is recorded
     std::deque<Recorder> recorders_;
     std::vector<double> y_;

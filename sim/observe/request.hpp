@@ -48,9 +48,9 @@ struct Request {
     std::vector<TableRequest> tables;
     std::vector<PoseRequest> poses;
     std::vector<PointRequest> points;
-    std::vector<Channel> extrema;                 // searched on the dense output
+    std::vector<Channel> extrema;                 // by samples of each step, refined on its dense output
     bool apexes = false, zero_crossings = false;  // of θ; each searches every ripple of the hub
-    bool impact_peaks = true;                     // the largest force and penetration of each impact, by a search
+    bool impact_peaks = true;                     // the largest force and penetration of each impact
     std::vector<double> states;                   // [s]: Result::states at these times
     bool horizon = false;  // intervals in which θ is reproducible (horizon.hpp); costs further runs
     // The run ends early at the event that completes these counts.

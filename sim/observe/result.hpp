@@ -85,7 +85,7 @@ struct Result {
     std::vector<ZeroCrossing> theta_zero;
     std::vector<Apex> apexes;
     std::vector<Extremum> extrema;   // one per Request::extrema
-    double energy_residual_max = 0;  // [J] largest magnitude at the ends of steps and, in contact, at their thirds
+    double energy_residual_max = 0;  // [J] largest magnitude at the ends of steps
     double energy_scale = 0;         // [J]
     // With Request::horizon:
     std::optional<double> reproducible_until;       // the first loss, or the end [s]

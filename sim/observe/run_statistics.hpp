@@ -15,7 +15,6 @@ struct Fallbacks {
     long coarse = 0;       // steps whose vibration is faster than the touch search resolves
     long left_behind = 0;  // starts at rest on a turning cam where no motion along with it was found
     long unstable = 0;     // static starts of a beam that has buckled
-    long searches = 0;     // for an extremum that were incomplete
     double gap = 0;        // largest magnitude of the gap at an event, subtracted from there on [m]
     Method method = Method::rk8;
 };

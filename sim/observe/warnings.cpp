@@ -119,9 +119,6 @@ void warn_of_fallbacks(const Problem& problem, const Result& result, const RunSt
             "in {} the beam vibrates faster than the search for touches resolves: a touch may be missed; use "
             "fewer modes or tighten solver.rtol",
             counted(f.coarse, "step")));
-    if (f.searches > 0)
-        out.push_back(fmt::format("the search for extrema is incomplete in {}: the true ones may exceed those reported",
-                                  counted(f.searches, "step")));
     if (f.gap > kReportedGap * problem.beam.length)
         out.push_back(fmt::format(
             "a gap of {:.2g} m remained at a touch or release and was set to zero: tighten solver.rtol", f.gap));

@@ -6,8 +6,7 @@
 
 #include "sim/contact/constants.hpp"
 #include "sim/dynamics/failure.hpp"
-#include "sim/observe/constants.hpp"
-#include "sim/observe/variation.hpp"
+#include "sim/integrate/step_errors.hpp"
 
 namespace beamcam::sim {
 namespace {
@@ -43,16 +42,13 @@ std::optional<double> first_dip_of_samples(Value&& value, const Instants& time, 
     return std::nullopt;
 }
 
-// The force of a collocation step, a polynomial, is positive all through it.                              (S59)
+// The force of a collocation step is positive all through it: its values at the ends are, and the polynomial through
+// its values at the nodes.
 bool presses_throughout(const TouchSamples& touch) {
-    const double* force = touch.force;
-    const double h = touch.t[TouchSamples::kCount - 1] - touch.t[0];
     Lanes nodes;
-    for (int k = 0; k < kNodes; ++k) nodes[k] = force[k + 1];
-    Variation variation;
-    variation.add_polynomial(nodes, h);
-    variation.add_missed(nodes, force[0], force[TouchSamples::kCount - 1], h);
-    return *std::min_element(force, force + TouchSamples::kCount) > variation.strays(kWidestNodeGap * h);
+    for (int k = 0; k < kNodes; ++k) nodes[k] = touch.force[k + 1];
+    const LegendreRange range = legendre_range(nodes);
+    return range.mean > range.spread && touch.force[0] > 0 && touch.force[TouchSamples::kCount - 1] > 0;
 }
 
 }  // namespace

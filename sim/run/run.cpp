@@ -36,8 +36,7 @@ Run::Run(const Problem& problem, std::span<const Request> requests, const Progre
       start_(options.start),
       dynamics_(problem),
       probe_(dynamics_),
-      output_(
-          dynamics_, requests, options.observer, [this] { return statistics(); }, [this](double t) { report(t); }),
+      output_(dynamics_, requests, options.observer, [this] { return statistics(); }),
       integrator_(options.around ? options.around(dynamics_, make_integrator(problem.solver, dynamics_))
                                  : make_integrator(problem.solver, dynamics_)),
       touch_search_(probe_, state_, [this](double t) { report(t); }),

@@ -25,8 +25,8 @@ class MotionObserver {
 class RunOutput {
   public:
     RunOutput(const System& system, std::span<const Request> requests, MotionObserver* observer,
-              RecorderSet::StatisticsSource statistics, RecorderSet::Poll poll)
-        : recorders_(system, requests, std::move(poll)), observer_(observer), statistics_(std::move(statistics)) {}
+              RecorderSet::StatisticsSource statistics)
+        : recorders_(system, requests), observer_(observer), statistics_(std::move(statistics)) {}
 
     double end() const { return observer_ ? std::max(recorders_.end(), observer_->end()) : recorders_.end(); }
     bool done() const { return observer_ ? observer_->done() : recorders_.done(); }

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "sim/observe/step_channels.hpp"
+#include "sim/observe/step_samples.hpp"
 #include "sim/run/run.hpp"
 #include "sim/sweep/sampling.hpp"
 
@@ -35,7 +35,7 @@ class Sampler final : public MotionObserver {
     const Sampling& sampling_;
     SampleSpan span_;
     System system_;
-    std::optional<StepChannels> step_;  // for samples at apexes or crossings
+    std::optional<StepSamples> step_;  // for samples at apexes or crossings
     SampledMotion motion_;
     std::vector<double> y_;
     Phase phase_;

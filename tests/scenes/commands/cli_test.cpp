@@ -118,7 +118,7 @@ TEST(CommandLine, WrongUsageIsTwo) {
                                   "simulate s.json --rate 0",
                                   "simulate s.json --rate 5 --times 1",
                                   "simulate s.json --channels thetta",
-                                  "simulate s.json --channels theta --summary -",
+                                  "simulate s.json --trajectory - --summary -",
                                   "simulate s.json --trajectory a.txt",
                                   "run s.json -j 0",
                                   "run s.json --set cam.speed",
@@ -319,6 +319,29 @@ TEST(CommandLine, InitWritesASceneThatIsFineAndNeverReplacesOne) {
     EXPECT_EQ(shell(folder, "$BEAMCAM init fall").code, 6);
     EXPECT_EQ(shell(folder, "$BEAMCAM init fall --force").code, 0);
     EXPECT_THAT(shell(folder, "$BEAMCAM init -").out, HasSubstr("\"beam\""));
+}
+
+TEST(CommandLine, TheSummaryHasTheExtremaOfTheChannelsThatAreAskedFor) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.1}})");
+    const auto channels = [&](const std::string& options) {
+        return shell(folder, "$BEAMCAM simulate s.json -q " + options +
+                                 " | /usr/bin/python3 -c \"import json, sys; print(*json.load(sys.stdin)['extrema'])\"")
+            .out;
+    };
+    EXPECT_EQ(channels(""), "theta tip_deflection contact_force gap\n");
+    EXPECT_EQ(channels("--summary - --channels q1,energy_elastic"), "q1 energy_elastic\n");
+    EXPECT_EQ(channels("--summary - --channels q1 --trajectory a.csv"), "q1\n");
+    EXPECT_EQ(testing::slurp(folder / "a.csv").substr(0, 5), "t,q1\n");
+    folder.write("s.json", R"({"outputs": [{"type": "summary", "file": "a.json", "channels": ["gap", "theta"]},
+                                            {"type": "summary", "file": "b.json", "channels": ["theta"]}]})");
+    ASSERT_EQ(shell(folder, "$BEAMCAM run s.json -q").code, 0);
+    EXPECT_EQ(shell(folder,
+                    "/usr/bin/python3 -c \"import json; a, b = (json.load(open(f))['extrema'] for f in "
+                    "('a.json', 'b.json')); assert list(a) == ['gap', 'theta'] and list(b) == ['theta'], (a, b); "
+                    "assert a['theta'] == b['theta']\"")
+                  .code,
+              0);
 }
 
 TEST(CommandLine, SimulatePrintsTheSummaryOrTheRequestedTable) {

@@ -99,5 +99,28 @@ TEST(PreconditionsDeathTest, ARootMustBeBracketed) {
 }
 #endif
 
+// They enclose the maximum, or the first is the highest and the parabola has its top beside it.
+TEST(Climb, FindsTheMaximumBetweenThreePoints) {
+    const auto f = [](double x) { return std::cos(x) + 0.1 * std::sin(3 * x); };
+    double best = -2;
+    for (int k = 0; k < 1'000'000; ++k) best = std::max(best, f(1e-6 * k));
+    for (const double first : {-0.3, 0.0, 0.2}) {
+        const auto at = [&](double x) { return PlanePoint{x, f(x)}; };
+        const PlanePoint top = climb(f, at(first), at(first + 0.4), at(first + 0.8), 0, 1e-12);
+        EXPECT_NEAR(top.y, best, 1e-12) << first;
+        EXPECT_EQ(f(top.x), top.y);
+    }
+}
+
+TEST(Climb, EndsWhereTheParabolaDoesNotPromiseMore) {
+    int evaluations = 0;
+    const auto f = [&](double x) { return ++evaluations, std::cos(x); };
+    EXPECT_EQ(climb(f, {-0.5, std::cos(0.5)}, {0.1, std::cos(0.1)}, {0.6, std::cos(0.6)}, 1.1, 1e-9).x, 0.1);
+    EXPECT_EQ(evaluations, 0);
+    EXPECT_FALSE(vertex({0, 0}, {1, 0}, {2, 0}));
+    EXPECT_FALSE(vertex({0, 1}, {1, 0}, {2, 1}));
+    EXPECT_FALSE(vertex({0, 0}, {1, 1}, {2, 1.9}));  // beyond the last
+}
+
 }  // namespace
 }  // namespace beamcam::sim

@@ -144,7 +144,6 @@ TEST(Fallback, EachIsReportedWithItsCount) {
     EXPECT_TRUE(reported({.strikes = 2}, "2 strikes taken as plastic"));
     EXPECT_TRUE(reported({.coarse = 2}, "in 2 steps the beam vibrates faster than the search for touches"));
     EXPECT_TRUE(reported({.left_behind = 1}, "no motion was found in which the resting beam follows"));
-    EXPECT_TRUE(reported({.searches = 2}, "search for extrema is incomplete in 2 steps"));
     EXPECT_TRUE(reported({.gap = 2e-9}, "a gap of 2e-09 m remained"));
     RunStatistics rounding;
     rounding.fallbacks.gap = 1e-15;

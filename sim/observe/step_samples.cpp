@@ -1,0 +1,293 @@
+#include "sim/observe/step_samples.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "sim/beam/modal_model.hpp"
+#include "sim/beam/natural_modes.hpp"
+#include "sim/integrate/collocation.hpp"
+#include "sim/integrate/modal_form.hpp"
+#include "sim/integrate/step_errors.hpp"
+#include "sim/observe/constants.hpp"
+
+namespace beamcam::sim {
+namespace {
+
+// The samples of the contact that are this channel; null for other channels.
+const double* touch_channel(const TouchSamples& touch, ChannelKind kind) {
+    if (kind == ChannelKind::contact_force) return touch.force;
+    if (kind == ChannelKind::friction_force) return touch.friction;
+    if (kind == ChannelKind::gap) return touch.gap;
+    return kind == ChannelKind::contact_x ? touch.x : nullptr;
+}
+
+bool is_of_touch(ChannelKind kind) {
+    return kind == ChannelKind::contact_force || kind == ChannelKind::friction_force || kind == ChannelKind::gap ||
+           kind == ChannelKind::contact_x;
+}
+
+}  // namespace
+
+struct StepSamples::Needs {
+    bool state = false;    // more than the coordinates
+    bool work = false;     // what damping and drive do to the vibration
+    bool contact = false;  // its geometry and, in contact, forces
+    bool energy = false;   // which vibrates twice as fast as the beam
+};
+
+StepSamples::StepSamples(const System& system)
+    : evaluator_(system), probe_(evaluator_.system(), true), y_(static_cast<std::size_t>(system.size)) {
+    find_modes();
+}
+
+void StepSamples::find_modes() {
+    System& system = evaluator_.system();
+    const Model& model = system.model();
+    const auto add = [&](double omega, double gamma) {
+        const bool vibrates = gamma < omega;
+        modes_.push_back({omega, vibrates ? gamma : gamma + std::sqrt(gamma * gamma - omega * omega), vibrates});
+        fastest_decay_ = std::max(fastest_decay_, modes_.back().decay);
+    };
+    if (modes_are_coordinates(system)) {
+        const auto& modal = static_cast<const ModalModel&>(model);
+        const double* damping = modal.diagonal_damping();
+        for (int i = 0; i + 1 < model.size(); ++i)
+            add(modal.frequency(i), damping ? 0.5 * damping[i] / model.mass() : 0);
+        return;
+    }
+    const NaturalModes& natural = system.natural_modes();
+    const Eigen::Index n = natural.omega_squared.size();
+    for (Eigen::Index i = 0; i < n; ++i)
+        add(std::sqrt(std::max(0.0, natural.omega_squared[i])), 0.5 * natural.damping[i]);
+    for (Eigen::Index i = 0; i < n; ++i)
+        for (Eigen::Index j = 0; j < n; ++j) to_modes_.push_back(natural.inverse(i + 1, j + 1));
+}
+
+void StepSamples::begin(const SegmentInterval& s) {
+    step_ = s;
+    evaluator_.system().search_again();
+    probe_.forget();
+}
+
+// Twice the kinetic energy of each mode per mass of the beam; or its whole energy at the start of a motion, which may
+// rest far from equilibrium. Later the deflection follows the forcing without vibration.
+const std::vector<double>& StepSamples::modal_energies(double t, bool whole) {
+    step_.segment->coordinates(t, y_.data());
+    const std::size_t n = modes_.size();
+    const double *q = y_.data() + 1, *rate = q + n + 1;
+    const auto mode = [&](const double* x, std::size_t i) {
+        if (to_modes_.empty()) return x[i];
+        double z = 0;
+        for (std::size_t j = 0; j < n; ++j) z += to_modes_[i * n + j] * x[j];
+        return z;
+    };
+    energies_.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const double speed = mode(rate, i), deflected = whole ? modes_[i].omega * mode(q, i) : 0;
+        energies_[i] = speed * speed + deflected * deflected;
+    }
+    return energies_;
+}
+
+// A vibration that fades early in the step is sampled in parts whose lengths grow from the start by a constant factor.
+// In a step that was solved for the contact its force and gap are resolved.
+void StepSamples::find_parts(bool of_touch) {
+    const double length = step_.to - step_.from;
+    double decay = 0, energy = 0;
+    if (fastest_decay_ * length > kFadedDecays && !(of_touch && step_.segment->touch())) {
+        const std::vector<double>& energies = modal_energies(step_.from, step_.from == 0);
+        for (const double e : energies) energy += e;
+        for (std::size_t i = 0; i < modes_.size(); ++i)
+            if (energies[i] > kNegligibleEnergy * energy) decay = std::max(decay, modes_[i].decay);
+    }
+    parts_.clear();
+    double to = step_.to;
+    for (double share = kPartRatio;; share *= kPartRatio) {
+        double from = step_.from + share * length;
+        const bool first = !(decay * (to - step_.from) > kFadedDecays) || !(from > step_.from && from < to);
+        if (first) from = step_.from;
+        Instants& part = parts_.emplace_back();
+        part.front() = from;
+        part.back() = to;
+        for (int k = 0; k < kNodes; ++k)
+            part[static_cast<std::size_t>(k) + 1] = from + Collocation::get().c[k] * (to - from);
+        if (first) break;
+        to = from;
+    }
+    std::ranges::reverse(parts_);
+}
+
+// The highest frequency whose share of the vibration's energy matters in the part [rad/s].
+double StepSamples::fastest(const Instants& part) {
+    largest_.assign(modes_.size(), 0);
+    for (const double t : part) {
+        const std::vector<double>& energies = modal_energies(t, false);
+        for (std::size_t i = 0; i < largest_.size(); ++i) largest_[i] = std::max(largest_[i], energies[i]);
+    }
+    double energy = 0, highest = 0;
+    for (const double e : largest_) energy += e;
+    for (std::size_t i = 0; i < largest_.size(); ++i)
+        if (largest_[i] > kNegligibleEnergy * energy && modes_[i].vibrates)
+            highest = std::max(highest, modes_[i].omega);
+    return highest;
+}
+
+const TouchSamples* StepSamples::touch_at(const Instants& part) const {
+    const TouchSamples* touch = step_.segment->touch();
+    static_assert(TouchSamples::kCount == kCount);
+    return touch && touch->t[0] == part.front() && touch->t[kCount - 1] == part.back() ? touch : nullptr;
+}
+
+const std::vector<StepSamples::Series>& StepSamples::sample(std::span<const Channel> channels,
+                                                            const NeedsMore& needs_more, const See& see) {
+    channels_.assign(channels.begin(), channels.end());
+    series_.resize(channels.size());
+    nodes_.resize(channels.size());
+    for (Series& series : series_) {
+        series.t.clear();
+        series.value.clear();
+    }
+    find_parts(std::ranges::all_of(channels, [](Channel c) { return is_of_touch(c.kind); }));
+    for (const Instants& part : parts_) sample_part(part, needs_more, see);
+    return series_;
+}
+
+void StepSamples::sample_part(const Instants& part, const NeedsMore& needs_more, const See& see) {
+    evaluate_nodes(part, needs_more, see);
+    double frequency = -1;
+    for (std::size_t k = 0; k < kCount; ++k) {
+        for (std::size_t c = 0; c < channels_.size(); ++c) {
+            if (k == 0 && !series_[c].t.empty()) continue;  // the end of the part before
+            if (nodes_[c].only_ends && k > 0 && k + 1 < kCount) continue;
+            series_[c].t.push_back(part[k]);
+            series_[c].value.push_back(nodes_[c].value[k]);
+        }
+        if (k + 1 == kCount) return;
+        sampled_.clear();
+        for (std::size_t c = 0; c < channels_.size(); ++c) {
+            const Nodes& of = nodes_[c];
+            const auto [low, high] = std::minmax(of.value[k], of.value[k + 1]);
+            const double least = is_gap_in_flight(c) ? std::max(low, of.stray) : low;  // it is not negative
+            if (!of.only_ends && of.stray > 0 && needs_more(c, least, high, of.stray)) sampled_.push_back(c);
+        }
+        if (sampled_.empty()) continue;
+        if (frequency < 0) frequency = fastest(part);
+        const Needs needs = needs_of(sampled_);
+        const double length = part[k + 1] - part[k], rate = needs.energy ? 2 * frequency : frequency;
+        const double pieces = std::min(std::ceil(kSamplesPerRadian * rate * length), kMostSamples);
+        for (double j = 1; j < pieces; ++j) {
+            const double t = part[k] + length * (j / pieces);
+            place(t, needs);
+            for (const std::size_t c : sampled_) {
+                series_[c].t.push_back(t);
+                series_[c].value.push_back(read(channels_[c], t));
+            }
+        }
+    }
+}
+
+void StepSamples::evaluate_nodes(const Instants& part, const NeedsMore& needs_more, const See& see) {
+    const TouchSamples* touch = touch_at(part);
+    sampled_.clear();
+    for (std::size_t c = 0; c < channels_.size(); ++c) {
+        Nodes& of = nodes_[c];
+        const double* known = touch ? touch_channel(*touch, channels_[c].kind) : nullptr;
+        if (known) std::copy_n(known, kCount, of.value.begin());
+        of.only_ends = !known && ends_suffice(part, c, needs_more, see);
+        if (!known && !of.only_ends) sampled_.push_back(c);
+    }
+    const Needs needs = needs_of(sampled_);
+    for (std::size_t k = 0; k < kCount && !sampled_.empty(); ++k) {
+        place(part[k], needs);
+        for (const std::size_t c : sampled_) nodes_[c].value[k] = read(channels_[c], part[k]);
+    }
+    for (std::size_t c = 0; c < channels_.size(); ++c) {
+        Nodes& of = nodes_[c];
+        for (std::size_t k = 0; see && !of.only_ends && k < kCount; ++k) see(c, part[k], of.value[k]);
+        Lanes inner;
+        for (int k = 0; k < kNodes; ++k) inner[k] = of.value[static_cast<std::size_t>(k) + 1];
+        of.stray = kStrayByDecay * legendre_decay(inner).last;
+    }
+}
+
+bool StepSamples::is_gap_in_flight(std::size_t channel) const {
+    return channels_[channel].kind == ChannelKind::gap && !evaluator_.system().phase().touching;
+}
+
+// In flight the gap, which is costly, is evaluated at the ends only where it cannot matter between them: it changes no
+// faster than the beam and the disc move, and is not negative.
+bool StepSamples::ends_suffice(const Instants& part, std::size_t channel, const NeedsMore& needs_more, const See& see) {
+    const System& system = evaluator_.system();
+    const MotionBounds* bounds = step_.segment->bounds();
+    if (!is_gap_in_flight(channel) || !bounds || !system.has_cam()) return false;
+    Nodes& of = nodes_[channel];
+    const Needs needs = needs_of({&channel, 1});
+    for (const std::size_t k : {std::size_t{0}, kCount - 1}) {
+        place(part[k], needs);
+        of.value[k] = read(channels_[channel], part[k]);
+        if (see) see(channel, part[k], of.value[k]);
+    }
+    const Problem& problem = system.problem();
+    const double reach = std::fabs(problem.hub.radius) + problem.beam.length;
+    const double speed = bounds->theta_dot * reach + bounds->deflection_speed +
+                         problem.cam->eccentricity * std::fabs(problem.cam->speed);
+    const double stray = 0.5 * speed * (part.back() - part.front());
+    const auto [low, high] = std::minmax(of.value.front(), of.value.back());
+    return !needs_more(channel, std::max(low, stray), high, stray);
+}
+
+StepSamples::Needs StepSamples::needs_of(std::span<const std::size_t> channels) const {
+    const System& system = evaluator_.system();
+    const bool touching = system.phase().touching;
+    Needs out;
+    for (const std::size_t c : channels) {
+        const ChannelTraits& of = traits(channels_[c].kind);
+        out.state = out.state || !evaluator_.is_of_coordinates(channels_[c]);
+        out.work = out.work || of.needs_vibration_work;
+        out.energy = out.energy || std::string_view(row(channels_[c].kind).unit) == "J";
+        out.contact = out.contact || (system.has_cam() && (of.needs_contact || (touching && of.needs_force)));
+    }
+    return out;
+}
+
+void StepSamples::place(double t, const Needs& needs) {
+    if (!needs.state) return step_.segment->coordinates(t, y_.data());
+    if (needs.work)
+        step_.segment->value(t, y_.data());
+    else
+        step_.segment->value_without_vibration_work(t, y_.data());
+    evaluator_.set(t, y_.data());
+    if (needs.contact) place_contact(t);
+}
+
+// By the probe, which costs less than a search of the whole beam; the force of sustained contact needs the equations of
+// motion.
+void StepSamples::place_contact(double t) {
+    System& system = evaluator_.system();
+    const Phase& phase = system.phase();
+    if (phase.held) return;
+    ContactState c = probe_.evaluate(t, y_.data(), false);
+    if (phase.touching) {
+        c.force = system.normal_law().force(-c.gap, -c.gap_rate, phase.approach);
+        c.friction = system.friction().force(phase.friction, c.force, c.slip, system.bristle(y_.data()));
+    }
+    evaluator_.set_contact(c);
+}
+
+double StepSamples::read(Channel channel, double t) {
+    if (evaluator_.is_of_coordinates(channel)) return evaluator_.value_of_coordinates(channel, t, y_.data());
+    const System& system = evaluator_.system();
+    const bool force = channel.kind == ChannelKind::contact_force || channel.kind == ChannelKind::friction_force;
+    if (force && system.has_cam() && !system.phase().touching) return 0;
+    return evaluator_.value(channel);
+}
+
+double StepSamples::value(Channel channel, double t) {
+    channels_.assign(1, channel);
+    const std::size_t first = 0;
+    place(t, needs_of({&first, 1}));
+    return read(channel, t);
+}
+
+}  // namespace beamcam::sim

@@ -1,0 +1,82 @@
+// The channels within one step of the motion, at instants that follow its vibration: the ends and Gauss nodes of the
+// step, and more between two of them where a channel varies by what the nodes do not resolve. Extrema and crossings are
+// found in these samples. MODEL.md §12, (S59).
+#pragma once
+
+#include <array>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "sim/base/lanes.hpp"
+#include "sim/integrate/gap_probe.hpp"
+#include "sim/observe/channel_evaluator.hpp"
+#include "sim/observe/segment_interval.hpp"
+
+namespace beamcam::sim {
+
+class StepSamples {
+  public:
+    struct Series {
+        std::vector<double> t, value;
+    };
+    // Whether a channel is sampled beyond the nodes in an interval at whose ends its smaller value is `low` and its
+    // larger one `high`. The channel may exceed them by about `stray`.
+    using NeedsMore = std::function<bool(std::size_t channel, double low, double high, double stray)>;
+    // Receives every sample at the ends and nodes before it is decided whether more are needed.
+    using See = std::function<void(std::size_t channel, double t, double value)>;
+
+    explicit StepSamples(const System& system);
+    void set_phase(const Phase& phase) { evaluator_.set_phase(phase); }
+    void set_start_energy(double total) { evaluator_.set_start_energy(total); }
+
+    // The other calls concern this step; their results do not depend on those for earlier steps.
+    void begin(const SegmentInterval& s);
+    // One series for each channel, valid until the next call.
+    const std::vector<Series>& sample(std::span<const Channel> channels, const NeedsMore& needs_more,
+                                      const See& see = {});
+    double value(Channel channel, double t);
+
+  private:
+    static constexpr std::size_t kCount = kNodes + 2;  // both ends and the Gauss nodes
+    using Instants = std::array<double, kCount>;
+    struct Mode {
+        double omega, decay;  // its frequency without damping; the rate of its fastest decay [1/s]
+        bool vibrates;        // below critical damping
+    };
+    void find_modes();
+    const std::vector<double>& modal_energies(double t, bool whole);
+    void find_parts(bool of_touch);
+    double fastest(const Instants& part);
+    // The contact at the ends and nodes of the part where the step solved for it there.
+    const TouchSamples* touch_at(const Instants& part) const;
+    void sample_part(const Instants& part, const NeedsMore& needs_more, const See& see);
+    void evaluate_nodes(const Instants& part, const NeedsMore& needs_more, const See& see);
+    bool ends_suffice(const Instants& part, std::size_t channel, const NeedsMore& needs_more, const See& see);
+    bool is_gap_in_flight(std::size_t channel) const;
+    struct Needs;
+    Needs needs_of(std::span<const std::size_t> channels) const;
+    void place(double t, const Needs& needs);
+    void place_contact(double t);
+    double read(Channel channel, double t);
+
+    ChannelEvaluator evaluator_;
+    GapProbe probe_;
+    std::vector<Mode> modes_;
+    double fastest_decay_ = 0;
+    std::vector<double> to_modes_;  // the modes by the coordinates, row-major; empty: they are the same
+    SegmentInterval step_{};
+    std::vector<Channel> channels_;  // that are sampled
+    std::vector<Series> series_;
+    struct Nodes {
+        std::array<double, kCount> value;
+        bool only_ends;
+        double stray;
+    };
+    std::vector<Nodes> nodes_;  // of each channel in the present part
+    std::vector<Instants> parts_;
+    std::vector<std::size_t> sampled_;
+    std::vector<double> y_, energies_, largest_;
+};
+
+}  // namespace beamcam::sim
