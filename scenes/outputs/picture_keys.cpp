@@ -88,7 +88,7 @@ void visit_picture(SceneVisitor& v, Picture& picture) {
     v.number(written_if(picture.view.show.size != 1, "text_scale"), picture.view.show.size, sim::kPlainNumber,
              between(0.5, 4, "is outside 0.5 … 4"),
              "Size of text, lines and marks; at 1 the numbers of axes have 2 % of the height of a 16:9 picture.");
-    v.value("size", size_format(picture.size), "Width and height in pixels; H.264, VP9 and AV1 need even numbers.");
+    v.value("size", size_format(picture.size), "Width and height in pixels; H.264 and VP9 need even numbers.");
     v.value("layout", layout_format(picture.layout),
             "auto, a panel, or a grid: {\"columns\": [{\"panel\": \"mechanism\", \"share\": 2}, {\"rows\": [\"theta\", "
             "\"contact_force\", \"close-up\"]}]}.",

@@ -61,7 +61,7 @@ BEAMCAM_INLINE Lanes magnitude(Lanes a) {
     for (Lanes::Part& part : a.part) part = (Lanes::Part)((Bits)part & 0x7fff'ffff'ffff'ffff);
     return a;
 }
-// Of magnitudes; NaN is passed over.
+// The largest magnitude; NaN is passed over.
 BEAMCAM_INLINE double largest(const Lanes& a) {
     Lanes::Part m{};
     for (const Lanes::Part& part : a.part) {
@@ -92,7 +92,7 @@ inline void sine_and_cosine(const Lanes& a, Lanes& sine, Lanes& cosine) {
     sine = a + a * (a2 * s);
     cosine = (1 - 0.5 * a2) + a2 * (a2 * c);
 }
-// Of a rotation by small angles: exact to rounding up to kSmallRotation.
+// Sine and cosine of small angles are exact to rounding up to kSmallRotation.
 inline constexpr double kSmallRotation = 0.01;  // [rad]
 inline void small_sine_and_cosine(const Lanes& a, Lanes& sine, Lanes& cosine) {
     if (!(largest(a) < kSmallRotation)) return sine_and_cosine(a, sine, cosine);

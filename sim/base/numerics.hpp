@@ -40,7 +40,7 @@ class SpectralIntegral {
 
 // Legendre polynomials P_0…P_{count−1} at z in [−1, 1].
 void legendre(double z, int count, double* values);
-// The same and their derivatives up to the order `orders` − 1, one order after the other.
+// These polynomials and their derivatives up to the order `orders` − 1, one order after the other.
 void legendre(double z, int count, int orders, double* values);
 
 // A root of f in [a, b], where f(a) and f(b) differ in sign or vanish; to the last bits.

@@ -11,7 +11,7 @@ inline constexpr double kBetweenPlaces = 1.05;  // a sine between places a 32nd 
 inline constexpr double kUncoupledDamping =
     1e-9;                                     // of the largest entry of C_d: smaller off-diagonal ones are rounding
 inline constexpr double kLostInertia = 1e-9;  // of the straight beam's inertia: anything less counts as not positive
-// Of the length, or rad: step of the finite differences of centrifugal forces. Their error is of fourth order, 1e-12.
+// The step of the finite differences of centrifugal forces [length, or rad]; their error is of fourth order, 1e-12.
 inline constexpr double kDeflectionDifference = 1e-3;
 // Tables: fewer values do not show that they are multiples of a step; and the largest distance from a multiple, as a
 // share of the step, to which a table in text rounds its values.

@@ -41,7 +41,7 @@ class ModalModel final : public Model {
     void shortening_matrix(double x, double* h) const;
 
   private:
-    // What does not depend on the state; shared by clones.
+    // Values that do not depend on the state are shared by clones.
     struct Tables {
         ModalMatrices m;
         Eigen::MatrixXd B;  // (S14): M − D, or M without foreshortening

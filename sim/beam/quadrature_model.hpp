@@ -24,7 +24,7 @@ class QuadratureModel : public Model {
   protected:
     QuadratureModel(const Problem& problem, int nodes);
     QuadratureModel(const QuadratureModel&) = default;
-    // Of the derived class's constructor: natural frequencies and damping.
+    // The derived class's constructor ends with this: natural frequencies and damping.
     void finish(const Problem& problem);
 
     using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxSize, kMaxSize>;

@@ -64,7 +64,7 @@ struct State {
     T compression_work = 0, restitution_work = 0;  // ∫v_n dP_n, < 0 and > 0
 };
 
-// What P_n needs to the end of compression or, after that, of restitution while dv_n/dP_n = rate. kForever: no end.
+// The impulse P_n to the end of compression or, after that, of restitution while dv_n/dP_n = rate. kForever: no end.
 template <class T>
 T remaining(const State<T>& now, const T& rate, const T& v_n_before, double restitution, ImpactLaw law) {
     using std::sqrt;

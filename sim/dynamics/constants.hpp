@@ -14,7 +14,7 @@ inline constexpr double kSingleFoot = 0.5;     // limit of |v″| × distance of
 inline constexpr double kLeastShapeBound = 3;  // bounds all shapes of a beam that does not reach beyond its hinge
 
 // ---- the rounding of the gap ----
-// Of the length: ten times the rounding error of the gap. Smaller openings and penetrations are rounding.
+// Ten times the rounding error of the gap, over the length. Smaller openings and penetrations are rounding.
 inline constexpr double kGapRounding = 1e-14;
 // Baumgarte rate: kDecayOfVibration of the lowest bending frequency or, of a rigid beam, kDecayOfPendulum of √(g/L). So
 // it is slower than vibration and faster than the pendulum.
@@ -26,8 +26,8 @@ inline constexpr int kMaxNewtonSteps = 60, kMaxHalvings = 20;  // iterations; ha
 inline constexpr double kNewtonDifference = 1e-7;  // of an unknown's magnitude: step of the finite differences
 inline constexpr double kShallowDifference = 0.1;  // of the static penetration: the same in a stiff contact
 inline constexpr double kNewtonConverged = 1e-13;  // of an unknown's magnitude: a converged step
-// Of the load mgL²/(EI), by which the beam bends: from one equilibrium to the next, up to 7 are followed. A beam that
-// needs more steps than the second number is a chain: 5·10³ of the load.
+// The load mgL²/(EI) grows by this from one equilibrium to the next; up to 7 are followed. A beam that needs more steps
+// than the second number is a chain: its load is 5·10³.
 inline constexpr double kLoadStep = 5, kMostLoadSteps = 1000;
 inline constexpr double kEquilibriumGap = 1e-10;  // of the length: largest gap of a beam that rests on the cam
 inline constexpr double kSeparatedPull = 1e-6;    // of K: the spring that pulls a separated iterate back to the cam

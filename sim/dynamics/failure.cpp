@@ -148,7 +148,7 @@ std::string stuck_message(const Problem& p) {
     return what + fmt::format("use a smaller solver.rtol (is {:g}), or \"method\": \"rk8\"", p.solver.rtol);
 }
 
-// What limits the step size, and the remedies.
+// The causes that limit the step size, and the remedies.
 std::string step_size_limits(const Problem& p, System& system, const BeamState& beam, bool spent) {
     std::vector<std::string> needs;
     const double fastest = system.highest_frequency();

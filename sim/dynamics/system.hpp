@@ -73,7 +73,7 @@ class System final : public Ode {
     // Contact geometry and, in contact, the forces of the present phase. `search`: search the whole beam for the foot,
     // else near the previous foot.
     ContactState contact(double t, const double* y, bool search);
-    // The same after `set_state`.
+    // The contact of the state of `set_state`.
     ContactState current_contact(double t, const double* y, bool search);
 
     // After `contact`: f ← generalized forces in that state with the normal force `normal` [N] and its Coulomb
@@ -95,13 +95,13 @@ class System final : public Ode {
     EnergyBalance balance_without_beam(const double* y, const ContactState& c) const;
     // ξ̈ at (t, y) in the present phase; array of `coordinates`.
     void acceleration(double t, const double* y, double* acc);
-    // The same after `set_state`, in flight or with the contact forces of `c`.
+    // The acceleration in the state of `set_state`, in flight or with the contact forces of `c`.
     void current_acceleration(double t, const ContactState& c, double* acc);
 
     // Computed when first needed, and shared by copies.
     const NaturalModes& natural_modes() const;
     double highest_frequency() const { return highest_frequency_; }
-    // Of the critical damping: the largest one of a mode.
+    // The largest damping ratio of a mode.
     double damping_ratio() const;
     double baumgarte_rate() const { return baumgarte_rate_; }  // of sustained contact (S45) [1/s]
 

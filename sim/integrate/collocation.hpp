@@ -32,7 +32,7 @@ struct Collocation {
     Collocation();
 };
 
-// Of a quantity that is `start` at the start of a step of length h, from its rate at the nodes.
+// A quantity that is `start` at the start of a step of length h, by its rate at the nodes.
 Lanes at_nodes(double start, double h, const Lanes& rate);
 
 }  // namespace beamcam::sim

@@ -27,7 +27,7 @@ struct Frame {
 };
 
 constexpr int kExpansionOrder = 6;
-// Of numbers with N derivatives, whose distance from the centre is zero but for these: powers beyond N are zero, and
+// Numbers with N derivatives have a distance from the centre that is zero but for these: powers beyond N vanish, and
 // the foot needs the second derivative of the deflection.
 template <class T>
 consteval int expansion_order() {

@@ -180,8 +180,8 @@ double ContactStep::disc_travel() const {
     return std::fabs(cam.speed * cam.eccentricity * step_.time[kNodes - 1]);
 }
 
-// What the force at a node lacks to that of its law, and the slopes of the law; in sustained contact, what ġ + κg lacks
-// to its start decayed at the rate κ.
+// The difference of the force at a node from that of its law, and the slopes of the law; in sustained contact, of
+// ġ + κg from its start decayed at the rate κ.
 ForceAndSlopes ContactStep::normal_residual(int k) const {
     const double gap = load.contact.gap[k], rate = load.contact.gap_rate[k];
     const System& system = step_.system;

@@ -75,7 +75,7 @@ double ContactStepEnd::event_between_nodes(Ending ending, Ending& found) {
     return slips;
 }
 
-// The same of the normal force: the gap opens, or the clamp begins or ends.                             (S58)
+// An event of the normal force between nodes: the gap opens, or the clamp begins or ends.                       (S58)
 double ContactStepEnd::force_event_between_nodes(Ending ending, Ending& found) {
     const Collocation& gauss = Collocation::get();
     const ContactKinematics<Lanes>& nodes = contact_.load.contact;

@@ -10,7 +10,7 @@ namespace beamcam::sim {
 
 class FrictionMargin {
   public:
-    // Of the step just solved.
+    // The step has just been solved.
     FrictionMargin(const NodalStep& step, const ContactStep& contact);
 
     // The state does not last from the start on.

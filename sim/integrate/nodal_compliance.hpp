@@ -11,7 +11,7 @@ namespace beamcam::sim {
 struct NodalCompliance {
     NodalMatrix value, rate;
 };
-// Of the displacement in a direction with the rows a of the modes to forces in that with the rows b, or the other way
+// The displacement in a direction with the rows a of the modes by forces in that with the rows b, or the other way
 // round. `hub`: the product of both rows of the hub over its inertia.
 NodalCompliance nodal_compliance(const StepTable& table, double mass, double hub, const std::vector<double>& a,
                                  const std::vector<double>& b);

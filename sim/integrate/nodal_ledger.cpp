@@ -5,7 +5,7 @@
 
 namespace beamcam::sim {
 
-// Of the step that ends at s.end, in modes.
+// The ledger of the step that ends at s.end, in modes.
 void NodalStep::finish_ledger(const ContactLoad* load) {
     ExponentialSegment& s = segment;
     s.ledger_changes = load || form->damped || form->prescribed || system.drive().has_torque();
@@ -50,7 +50,7 @@ void NodalStep::drive_power(const ContactLoad* load) {
     if (load) s.rate[kWorkDrive] -= s.theta_dot * load->torque();
 }
 
-// Of the moments of inertia and gravity on the hub but for Uᵀq̈.
+// The power of the moments of inertia and gravity on the hub, but for Uᵀq̈.
 Lanes NodalStep::drive_power_by_inertia() const {
     Lanes moment = forces_[0];
     for (std::size_t i = 0; i < n; ++i) moment -= form->U[i] * mode_acceleration_[i];

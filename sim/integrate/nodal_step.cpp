@@ -119,7 +119,7 @@ void NodalStep::evaluate_angle() {
     }
 }
 
-// The same for a small change of the angle: a rotation, exact to rounding up to kSmallRotation.
+// Follows a small change of the angle by a rotation, exact to rounding up to kSmallRotation.
 void NodalStep::advance_angle(const Lanes& to) {
     const Lanes by = to - frame_angle_;
     frame_angle_ = to;

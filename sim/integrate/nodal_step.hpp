@@ -35,17 +35,17 @@ struct NodalStep {
     void place_hub(double h);
     // The free motion of q and q̇ at the nodes.
     void propagate_free(const StepTable& table);
-    // The same, and the part of the forcing that does not depend on q and q̇.
+    // Propagates also the part of the forcing that does not depend on q and q̇.
     void propagate_unforced(const StepTable& table);
     void propagate(const StepTable& table);
-    // The same with the quasi-static deflection of the fast modes.                                            (S52b)
+    // Propagates also the quasi-static deflection of the fast modes.                                          (S52b)
     void propagate_without_fast(const StepTable& table);
     void propagate_rates(const StepTable& table);
     // Forcing and hub from the nodal q, and q̇ where the modes are not the coordinates. Returns the largest change in
     // units of the tolerance. `load`: null in flight.
     double update_forcing(const StepTable& table, const ContactLoad* load);
-    // Where the modes are not the coordinates: angle and rate of the frame at the nodes from the modes, and in contact
-    // or if the forces of inertia need them, all coordinates and rates.
+    // Computes angle and rate of the frame at the nodes where the modes are not the coordinates; in contact, or if the
+    // forces of inertia need them, all coordinates and rates.
     void place_coordinates(bool in_contact);
     const Lanes* deflection() const { return inertia_ ? position_.data() + 1 : segment.q.data(); }
     const Lanes* deflection_rate() const { return inertia_ ? rate_.data() + 1 : segment.v.data(); }
@@ -100,15 +100,15 @@ struct NodalStep {
 
     double rtol_, atol_;
     Lanes acceleration_{};
-    // Of the fast modes: amplitudes of vibration at the start of the step [m], the deflection without it at the nodes,
-    // and what vibration adds there on average to qᵀBq/m and qᵀGq/m.
+    // The fast modes: amplitudes of vibration at the start of the step [m], the deflection without it at the nodes, and
+    // the mean contribution of vibration to qᵀBq/m and qᵀGq/m there.
     std::vector<double> fast_amplitude_;
     std::vector<Lanes> fast_steady_;
     Lanes fast_inertia_{}, fast_fall_{};
     const LaneKernels& kernels_ = lane_kernels();
     std::vector<Lanes> base_q_, base_v_, bq_, gq_;
     std::vector<double> start_;  // of the step, in modes
-    // Where the modes are not the coordinates; else null and empty.
+    // These are null and empty where the modes are the coordinates.
     std::unique_ptr<InertiaForces> inertia_;
     std::vector<Lanes> position_, rate_, coordinate_acceleration_, mode_acceleration_, forces_;
     Lanes frame_angle_{};  // of sin and cos

@@ -37,7 +37,7 @@ void NodalStep::propagate_without_fast(const StepTable& table) {
     }
 }
 
-// What the squares of vibrations with the amplitude a add on average to the inertia and to the fall: ½ Σ A_ii a².
+// The squares of vibrations with the amplitude a add ½ Σ A_ii a² on average to the inertia and to the fall.
 void NodalStep::weigh_fast(const StepTable& table) {
     const FastVibrations& fast = segment.left_out;
     fast_inertia_ = fast_fall_ = Lanes{};
@@ -83,8 +83,8 @@ void NodalStep::turn_fast_back(const StepTable& table) {
     }
 }
 
-// What the lag leaves of the effect of κw on (q̇, ωq): the change of the amplitude by ¼κ/ω², of the frequency in second
-// order, and of the lag within the step.
+// The lag leaves a rest of the effect of κw on (q̇, ωq): the change of the amplitude by ¼κ/ω², of the frequency in
+// second order, and of the lag within the step.
 double NodalStep::fast_error(std::size_t i, double h) const {
     const double omega = form->oscillators[i].omega;
     const Lanes kappa = form->coupling(i, i, segment.theta_dot * segment.theta_dot, second_factor());

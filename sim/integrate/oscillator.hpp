@@ -40,17 +40,17 @@ struct OscillatorLanes {
     bool alone = false;  // damping beyond half of the critical: each response is computed by itself
 };
 std::vector<OscillatorLanes> pack_oscillators(const std::vector<Oscillator>& oscillators);
-// The same of a whole group: r[kResponse], in lanes over oscillators.
+// The responses of a whole group: r[kResponse], in lanes over oscillators.
 void respond(const OscillatorLanes& group, double tau, Lanes* r);
 
-// What a step of length h does to the oscillators: rows for the eight nodes, and for the end.
+// The effect of a step of length h on the oscillators: rows for the eight nodes, and for the end.
 struct StepTable {
     struct Row {  // of one oscillator: q ← qq q₀ + qv v₀ + Σ f_l q[l],  v ← vq q₀ + vv v₀ + Σ f_l v[l]
         Lanes qq, qv, vq, vv;
         std::array<Lanes, kNodes> q, v;
         Lanes end_q, end_v;  // over l
         double end_qq, end_qv, end_vq, end_vv;
-        // Of oscillators that turn by more than kAliasedRadians: q and v at the start, over l, of the polynomial motion
+        // Oscillators that turn by more than kAliasedRadians: q and v at the start, over l, of the polynomial motion
         // that follows the forcing without vibration.                                                        (S52b)
         Lanes steady, steady_rate;
     };
@@ -59,8 +59,8 @@ struct StepTable {
     std::vector<Row> rows;
     // `groups`: the same oscillators packed in lanes.
     void build(const std::vector<Oscillator>& oscillators, const std::vector<OscillatorLanes>& groups, double length);
-    // The same step; but of vibrations that the nodes do not resolve, q and v are at the nodes those of the nearest
-    // polynomial of degree seven, by least squares.                                                          (S52c)
+    // The step of `table`; but where vibrations are not resolved by the nodes, q and v at the nodes are those of the
+    // nearest polynomial of degree seven, by least squares.                                                  (S52c)
     void build_projected(const std::vector<Oscillator>& oscillators, const StepTable& table);
 
   private:

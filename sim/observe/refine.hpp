@@ -28,7 +28,7 @@ class PlaneCurve {
     bool is_outside(Vec2 from, Vec2 centre, Vec2 to) const {
         return std::max({from.x, centre.x, to.x}) < drawn_.first || std::min({from.x, centre.x, to.x}) > drawn_.second;
     }
-    // Of a point between the ends of a piece. False where the curve has no value.
+    // True if p, between the ends of a piece, is too far from it. False where the curve has no value.
     bool strays(Vec2 from, Vec2 to, Vec2 p, double /*share*/) const {
         const auto end = [](double drawn, double seen) { return std::isfinite(drawn) ? drawn : seen; };
         const Vec2 range{end(drawn_.second, high_.x) - end(drawn_.first, low_.x), high_.y - low_.y};

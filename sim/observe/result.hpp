@@ -11,7 +11,7 @@
 
 namespace beamcam::sim {
 
-// Of the motion where a touch begins or ends.
+// The state of the motion where a touch begins or ends.
 struct TouchState {
     double theta = 0, theta_dot = 0;  // [rad], [rad/s]
     double contact_s = 0;             // [m]

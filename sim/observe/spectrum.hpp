@@ -11,7 +11,7 @@ struct Spectrum {
     double resolution = 0;          // [Hz]: the window's equivalent noise bandwidth, 1.5 over the length of the record
 };
 
-// Of the samples less their mean, `step` [s] apart; those without a value count as the mean. At least two samples.
+// The samples are `step` [s] apart, at least two, and count less their mean; those without a value count as the mean.
 // F. J. Harris, "On the use of windows for harmonic analysis with the discrete Fourier transform", Proc. IEEE 66
 // (1978).
 Spectrum amplitude_spectrum(const std::vector<double>& samples, double step);

@@ -31,7 +31,7 @@ inline constexpr double kSameOrbit = 1e-6;   // relative difference of impact sp
 inline constexpr int kMaxArcNewton = 8;  // iterations; if a prediction needs more, the step is shortened
 // Residual of the corrector over the orbit's size: converged; acceptable if rounding allows no further decrease.
 inline constexpr double kArcConverged = 1e-11, kArcAcceptable = 1e-9;
-// Of the range: finite difference for ∂P/∂p, which affects the tangent and the convergence of the corrector.
+// The finite difference for ∂P/∂p, as a share of the range, affects the tangent and the corrector's convergence.
 inline constexpr double kArcDifference = 1e-6;
 inline constexpr double kNearFold = 0.1;  // of the unit tangent: its part along the parameter is smaller near a fold
 inline constexpr double kSmallestArc = 1e-9;                 // of the range: smallest step, located end of a branch
@@ -53,8 +53,8 @@ inline constexpr double kMostUnstable = 1e6;
 inline constexpr double kMovedSection = 0.01;  // [rad] smaller changes of the section are ignored
 inline constexpr double kNearSection = 0.1;    // of its flight: an impact so close to the section moves it
 inline constexpr double kAtRangeEnd = 1e-12;   // of the range: rounding
-// Of the orbit's size over its turns: first step onto the doubled branch, and how often it is halved until there is a
-// point on it.
+// The first step onto the doubled branch, as a share of the orbit's size over its turns, is halved so often until there
+// is a point on it.
 inline constexpr double kDoubledShift = 0.02;
 inline constexpr int kDoubledHalvings = 13;
 
@@ -63,7 +63,7 @@ inline constexpr int kDoubledHalvings = 13;
 inline constexpr double kSureErrors = 3;
 inline constexpr double kMaxDecay = 5;   // logarithm of the decay of a damped mode between two orthonormalizations
 inline constexpr double kUnsettled = 4;  // standard errors between the halves of an average
-// Of the whole: blocks that do not match the period of a periodic motion may differ by this much.
+// Blocks that do not match the period of a periodic motion may differ by this share of the whole.
 inline constexpr double kUnsettledRounding = 1e-3;
 inline constexpr double kCompliant = 0.02;  // [s] between orthonormalizations with compliant contact
 inline constexpr double kNoRank = 1e-13;    // of a unit tangent: a smaller remainder is rounding

@@ -48,7 +48,7 @@ CircleTest circle_of(const ArcPoint& p) {
     return test;
 }
 double circle_test(const ArcPoint& p) { return circle_of(p).product; }
-// Of a conservative system pairs stay on the unit circle, which is no crossing.
+// The pairs of a conservative system stay on the unit circle, which is no crossing.
 bool crosses_circle(const ArcPoint& a, const ArcPoint& b) {
     const CircleTest before = circle_of(a), after = circle_of(b);
     return before.product * after.product < 0 && std::min(before.nearest, after.nearest) > kOnCircle;
@@ -76,7 +76,7 @@ Eigen::VectorXd cubic(const ArcPoint& a, const ArcPoint& b, double s) {
            u * u * ((3 - 2 * u) * (chord - length * a.tangent) + length * (u - 1) * (slope - a.tangent));
 }
 
-// Of the motions of a branch in one direction, which report it by their calls of `progress`; short ones do not.
+// The work of the motions of a branch in one direction. They report it by calls of `progress`; short ones do not.
 struct Work {
     long most_steps, steps = 0;
     bool spent() const { return steps > most_steps; }

@@ -14,8 +14,8 @@ namespace beamcam::sim {
 struct FlowMap {
     InitialState end;            // final state and phase; a new run may start there
     Eigen::MatrixXd derivative;  // ∂(ξ, ξ̇)/∂(ξ₀, ξ̇₀), 2n × 2n, in SI units; empty if not requested
-    // Of the derivative, in `units` and in the order of time: it is their product. Each ends at a touch, before any
-    // sustained contact, and is well conditioned where the derivative is not.
+    // The derivative in `units` is the product of these factors, which are in the order of time. Each ends at a touch,
+    // before any sustained contact, and is well conditioned where the derivative is not.
     std::vector<Eigen::MatrixXd> factors;
     double inertia_share = 1;  // at the end (S73)
     Eigen::VectorXd units;     // of ξ and ξ̇ (TangentIntegrator::units)

@@ -66,7 +66,7 @@ class ModalJets {
     double baumgarte_rate_;
     Eigen::MatrixXd damping_;  // C_d; empty: none
 
-    // Of the present state.
+    // These belong to the present state.
     Jet inertia_;
     std::vector<Jet> force_;
     ContactKinematics<Jet> contact_;

@@ -8,8 +8,8 @@
 
 namespace beamcam::sim {
 
-// Of the product of all factors, the first one rightmost, in descending order of magnitude. A single factor may be
-// singular.
+// The eigenvalues of the product of all factors, the first one rightmost, in descending order of magnitude. A factor
+// may be singular.
 std::vector<std::complex<double>> multipliers(const std::vector<Eigen::MatrixXd>& factors);
 
 }  // namespace beamcam::sim

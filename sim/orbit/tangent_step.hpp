@@ -47,7 +47,7 @@ class TangentStep {
 
     std::vector<Jet> acceleration_;
     Eigen::VectorXd y_;
-    // Of the forcing at each node: a row for each forced component, columns as the rows of tangents.
+    // Derivative of the forcing at each node: a row for each forced component, columns as the rows of tangents.
     Eigen::MatrixXd derivative_[kNodes];
     Eigen::MatrixXd unforced_, matrix_, forcing_;
     Eigen::PartialPivLU<Eigen::MatrixXd> lu_;

@@ -194,8 +194,8 @@ struct InitialContact {
     FrictionState friction = FrictionState::stick;  // of stick-slip friction
     double bristle = 0;                             // z [m]
     double gap_offset = 0;                          // added to the gap since the last event [m] (S25)
-    // Of the approach floor `first-touch`: approach speed of the collision's first touch [m/s], and the instant of its
-    // last release [s], <= 0.
+    // The approach floor `first-touch` needs the approach speed of the collision's first touch [m/s], and the instant
+    // of its last release [s], <= 0.
     std::optional<double> first_approach = {}, last_release = {};
 };
 struct Initial {

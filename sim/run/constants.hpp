@@ -4,7 +4,7 @@
 namespace beamcam::sim {
 
 // ---- tolerance ----
-// Of the tolerance, for the local errors of `auto`: the sum over many impacts stays within ten times rtol.
+// The share of the tolerance for the local errors of `auto`: the sum over many impacts stays within ten times rtol.
 inline constexpr double kLocalShare = 1.0 / 3;
 
 // ---- budgets and progress ----
@@ -16,7 +16,7 @@ inline constexpr double kLongStep = 1e3;  // [rad] of the fastest vibration: aft
 // shorter than kSureProjection, which a brief phase can be, the limit grows with the square of the ratio.
 inline constexpr long kFirstProjection = 20000;
 inline constexpr double kSureProjection = 30000, kHopeless = 100;
-// Of the length, or rad: the largest number that a scene may have. How fast a linear model diverges above its critical
+// The largest number that a scene may have [length, or rad]. How fast a linear model diverges above its critical
 // speed is a question that runs answer, so that a deflection that no beam has does not end them.
 inline constexpr double kUnboundedDeflection = 1e30;
 

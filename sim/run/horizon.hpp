@@ -30,7 +30,7 @@ struct Comparison {
     std::optional<double> until = {};  // from here on the same method at a tighter tolerance replaces the other [s]
 };
 Comparison comparison(const Problem& problem, double end);
-// The same method at a tighter tolerance.
+// A comparison by the motion's own method at a tighter tolerance.
 Comparison tighter_comparison(const Problem& problem);
 
 // True if a run by the same method at a tighter tolerance is much cheaper than one by another method. The other method

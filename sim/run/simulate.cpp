@@ -41,8 +41,8 @@ Result comparison_run(const Problem& problem, const Request& angle, const Progre
     return comparison_run(problem, angle, progress, effort, compared);
 }
 
-// The same at lower cost: if the motion's own method at a tighter tolerance is much cheaper, the other method is used
-// only as long as it can add information.
+// A comparison run at lower cost: if the motion's own method at a tighter tolerance is much cheaper, the other method
+// is used only as long as it can add information.
 Result cheap_comparison_run(const Problem& problem, const Request& angle, const Result& plain, const Progress& progress,
                             Effort* effort, Comparison& compared) {
     if (!tighter_is_cheap(problem)) {

@@ -35,12 +35,12 @@ class Trials {
     void begin(double share, double more);
     // With samples of the angle if `sampled`. Nothing after `limit` seconds. Throws the exceptions of simulate.
     std::optional<TrialRun> simulate_until(const Problem& problem, double end, double limit, bool sampled);
-    // The same for a variant that may be impossible: `note` states the reason.
+    // Simulates a variant that may be impossible: `note` states the reason.
     std::optional<TrialRun> try_until(const Problem& variant, double end, double limit, std::string& note);
     // Compares a variant of the problem with `truth` over [0, end]. Timed without samples.
     void measure(AccuracyRow& row, const Problem& variant, const TrialRun& truth, double end, double limit,
                  int repeats);
-    // Of `repeats` runs, or fewer once `enough` seconds have passed since the first trial.
+    // Times `repeats` runs, or fewer once `enough` seconds have passed since the first trial.
     std::optional<Timing> time(const Problem& variant, double end, double limit, int repeats, double enough);
 
   private:

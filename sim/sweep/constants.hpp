@@ -6,7 +6,7 @@
 namespace beamcam::sim {
 
 // ---- classification ----
-// Of a turn of the cam after the start: instant of the state that is compared. Not zero, because a motion that starts
+// States are compared at this share of a turn of the cam after the start. It is not zero, because a motion that starts
 // on its orbit may have an impact there, at which the rate jumps.
 inline constexpr double kStrobePhase = 0.381966;
 inline constexpr double kSameState = 1e-5;          // of the cam's lift and its rate: closer states are equal

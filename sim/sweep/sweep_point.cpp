@@ -104,7 +104,7 @@ SweepPoint point_by_closed_forms(const Problem& problem, const Sampling& samplin
     if (survives(period->turns, problem, sampling, end, progress)) {
         point.attractor = returning(*period);
     } else {
-        // Of a motion without a period the impacts are those of a turn.
+        // The impacts of a motion without a period are counted per turn.
         const double turns = returns ? point.attractor.period : 1;
         point.attractor = {AttractorClass::aperiodic, 0, point.attractor.impacts_per_period / turns, {}};
     }

@@ -117,7 +117,7 @@ TEST(Info, AStillNamedByAnAbsolutePathGivesASceneThatCanBeRun) {
               0);
 }
 
-TEST(Info, PagesFiguresAndTheFilesBesideThemAreKnownByTheManifest) {
+TEST(Info, PagesFiguresAndTheFilesBesideThemAreKnownByTheListOfFiles) {
     const Folder folder;
     folder.write("s.json", R"({"time": {"end": 0.3}})");
     ASSERT_EQ(shell(folder,
