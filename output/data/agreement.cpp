@@ -22,7 +22,6 @@ Agreement agreement(const std::vector<double>& times, const std::vector<double>&
         if (!std::isfinite(difference) || !is_reproducible(result, times[i])) continue;
         ++out.rows;
         squares += difference * difference;
-        if (std::abs(difference) > std::abs(out.largest)) out.largest = difference;
     }
     if (out.rows > 0) out.rms = std::sqrt(squares / static_cast<double>(out.rows));
     return out;

@@ -14,7 +14,7 @@ struct Agreement {
     sim::Channel channel;
     // Differences, measured minus computed, where both have a value and θ is reproducible.
     std::size_t rows = 0;
-    double rms = 0, largest = 0;
+    double rms = 0;
 };
 
 // `times` must increase; `result` must have a horizon.

@@ -26,7 +26,7 @@ struct Separator {
     char character;
     const char* name;  // of more than one
 };
-// In this order where several fit.
+// The first one counts where several fit.
 constexpr Separator kSeparators[] = {{'\t', "tabs"}, {';', "semicolons"}, {',', "commas"}, {' ', "spaces"}};
 
 constexpr std::string_view kMissing[] = {"", "na", "n/a", "nan", "null", "none", "-", "--", "?", "#n/a"};

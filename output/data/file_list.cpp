@@ -191,8 +191,8 @@ std::optional<FileList::Entry> FileList::find(const fs::path& file) {
 
 // ---- writing -------------------------------------------------------------------------------------
 
-Target FileList::target(const fs::path& file, Origin origin) {
-    Target target(file);
+FileTarget FileList::target(const fs::path& file, Origin origin) {
+    FileTarget target(file);
     target.before_rename = [this, file, origin = std::move(origin)](const fs::path& temporary) {
         const FileIdentity identity = identity_of(temporary);
         const std::string name = file.filename().string(), digest = sha256_of_file(temporary);

@@ -43,7 +43,7 @@ struct FileRecord {
 };
 
 std::string line_of(const FileRecord& record);
-// In the order of the text, without the lines that are no records.
+// The records in the order of the text, without the lines that are no records.
 std::vector<FileRecord> parse_file_list(const std::string& text);
 
 class FileList {
@@ -63,10 +63,10 @@ class FileList {
 
     // The destination for the writer of the file, in any thread. It records the file before it appears, and does not
     // replace a file of others. This object must outlive the writer.
-    Target target(const std::filesystem::path& file, Origin origin = {});
+    FileTarget target(const std::filesystem::path& file, Origin origin = {});
 
-    // Removes what killed runs left half-written in this directory an hour ago, and outdated lines of the list. require_replaceable
-    // does so, too.
+    // Removes what killed runs left half-written in this directory an hour ago, and outdated lines of the list.
+    // require_replaceable does so, too.
     static void recover(const std::filesystem::path& directory);
 
     // The record of a file in the list beside it, whoever made it; nothing if it is not listed.

@@ -40,7 +40,7 @@ std::string end_record(std::size_t count, std::uint64_t size, std::uint64_t offs
 }
 
 // Throws UnsupportedOption if the arrays are too large for zip.
-const Target& checked_target(const Target& file, const std::vector<NpzArray>& arrays) {
+const FileTarget& checked_target(const FileTarget& file, const std::vector<NpzArray>& arrays) {
     constexpr std::uint64_t per_entry = 512;  // records and header of one array, generously
     std::uint64_t total = 0, rows = 0;
     for (const NpzArray& array : arrays) {
@@ -56,7 +56,7 @@ const Target& checked_target(const Target& file, const std::vector<NpzArray>& ar
 
 }  // namespace
 
-NpzFile::NpzFile(const Target& file, const std::vector<NpzArray>& arrays) : atomic_(checked_target(file, arrays)) {
+NpzFile::NpzFile(const FileTarget& file, const std::vector<NpzArray>& arrays) : atomic_(checked_target(file, arrays)) {
     std::uint64_t offset = 0;
     for (const NpzArray& array : arrays) {
         Member member{array.name + ".npy", npy_header(array.rows), 0, offset, 0, 0, {}};

@@ -19,7 +19,7 @@ struct NpzArray {
 class NpzFile {
   public:
     // Throws UnsupportedOption above 4 GiB, IoError.
-    NpzFile(const Target& file, const std::vector<NpzArray>& arrays);
+    NpzFile(const FileTarget& file, const std::vector<NpzArray>& arrays);
     // Adds the next numbers of an array. Throws IoError.
     void append(std::size_t array, std::span<const double> numbers);
     // To be called once, after all numbers. Throws IoError.

@@ -45,7 +45,7 @@ struct PointHead {
     std::string identity;     // names the sweep: a word without spaces
     std::string description;  // any text
 };
-// What the points of a sweep have in common.
+// The part that all points of a sweep share.
 struct PointShape {
     std::uint64_t points = 0;  // in the sweep
     std::size_t columns = 1;   // numbers in a row of samples

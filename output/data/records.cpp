@@ -140,7 +140,7 @@ Node agreement_node(const Agreement& each, const char* unit) {
                             {"channel", sim::name(each.channel)},
                             {"unit", unit},
                             {"rows", each.rows}});
-    if (each.rows > 0) add(out, "rms", each.rms), add(out, "largest", each.largest);
+    if (each.rows > 0) add(out, "rms", each.rms);
     return out;
 }
 
@@ -153,7 +153,7 @@ std::string impacts_json(const sim::Result& result) {
     return to_text(out);
 }
 
-void write_impacts(const Target& file, const sim::Result& result) {
+void write_impacts(const FileTarget& file, const sim::Result& result) {
     const std::string ending = file.path.extension().string();
     if (ending == ".json") return write_file(file, impacts_json(result));
     if (ending == ".csv") return write_table(file, impacts_table(result));

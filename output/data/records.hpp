@@ -20,7 +20,7 @@ namespace beamcam::output {
 std::string impacts_json(const sim::Result& result);  // {"impacts": […], "collisions": […]}
 
 // The ending decides: .json, or .csv with the impacts alone. Throws UnsupportedOption for others, IoError.
-void write_impacts(const Target& file, const sim::Result& result);
+void write_impacts(const FileTarget& file, const sim::Result& result);
 
 struct ChannelExtremum {
     sim::Channel channel;

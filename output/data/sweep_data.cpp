@@ -89,13 +89,14 @@ void csv(const SweepData& data, const std::function<void(const std::string&)>& w
     write(text);
 }
 
-// In the order of their numbers, so that the bytes do not depend on the order in which the points were made.
+// The points follow in the order of their numbers, so that the bytes do not depend on the order in which the points
+// were made.
 void points(const SweepData& data, const std::function<void(const std::string&)>& write) {
     write(text_of(data.head));
     each_point(data, [&](const StoredPoint& p) { write(text_of(p)); });
 }
 
-void npz(const Target& file, const SweepData& data) {
+void npz(const FileTarget& file, const SweepData& data) {
     std::vector<NpzArray> arrays;
     const std::uint64_t rows = data.rows_in_all();
     for (const std::string& name : column_names(data)) arrays.push_back({name, rows});
@@ -122,7 +123,7 @@ ColumnTable table_of(const SweepData& data) {
     return table;
 }
 
-void write_sweep(const Target& file, const SweepData& data) {
+void write_sweep(const FileTarget& file, const SweepData& data) {
     const std::string ending = file.path.extension().string();
     if (ending == ".npz") return npz(file, data);
     if (ending == ".nc") {

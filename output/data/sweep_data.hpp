@@ -73,7 +73,7 @@ inline std::vector<double> SweepData::place(std::uint64_t point) const {
 inline constexpr const char* kPartEnding = ".points";
 
 // The ending decides: .csv, .npz, .nc or .points. Throws IoError, UnsupportedOption, render::MissingPart.
-void write_sweep(const Target& file, const SweepData& data);
+void write_sweep(const FileTarget& file, const SweepData& data);
 void write_sweep_csv(std::ostream& out, const SweepData& data);
 // The rows of .csv and .npz.
 ColumnTable table_of(const SweepData& data);

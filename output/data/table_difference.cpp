@@ -58,7 +58,7 @@ std::vector<Pair> common_rows(const ColumnTable& a, const ColumnTable& b, double
     return pairs;
 }
 
-// Of equal names, the first counts.
+// The first of equal names counts.
 std::map<std::string, const TableColumn*> by_name(const ColumnTable& table) {
     std::map<std::string, const TableColumn*> columns;
     for (const TableColumn& column : table.columns) columns.try_emplace(column.name, &column);

@@ -57,13 +57,13 @@ void csv(const Columns& table, const std::function<void(const std::string&)>& wr
     write(text);
 }
 
-void write_csv(const Target& file, const Columns& table) {
+void write_csv(const FileTarget& file, const Columns& table) {
     AtomicFile atomic(file);
     csv(table, [&atomic](const std::string& text) { atomic.write(text); });
     atomic.commit();
 }
 
-void write_npz(const Target& file, const Columns& table) {
+void write_npz(const FileTarget& file, const Columns& table) {
     std::vector<NpzArray> arrays;
     for (const auto& name : table.names) arrays.push_back({std::string(name), table.rows()});
     NpzFile npz(file, arrays);
@@ -71,7 +71,7 @@ void write_npz(const Target& file, const Columns& table) {
     npz.commit();
 }
 
-void write_columns(const Target& file, const Columns& table) {
+void write_columns(const FileTarget& file, const Columns& table) {
     const std::string ending = file.path.extension().string();
     if (ending == ".csv") return write_csv(file, table);
     if (ending == ".npz") return write_npz(file, table);
@@ -111,9 +111,9 @@ std::function<void(const std::string&)> to_stream(std::ostream& out) {
 
 void write_csv(std::ostream& out, const sim::Table& table) { csv(columns_of(table), to_stream(out)); }
 
-void write_table(const Target& file, const sim::Table& table) { write_columns(file, columns_of(table)); }
+void write_table(const FileTarget& file, const sim::Table& table) { write_columns(file, columns_of(table)); }
 
-void write_table(const Target& file, const ColumnTable& table) {
+void write_table(const FileTarget& file, const ColumnTable& table) {
     if (file.path.extension() != ".nc") return write_columns(file, columns_of(table));
     AtomicFile atomic(file);
     netcdf_library().write(atomic.temporary_path(), file.path, table);

@@ -45,9 +45,9 @@ std::function<void(const std::string&)> to_stream(std::ostream& out);
 
 // The ending decides: .csv or .npz; numpy.load(file)["theta"] gives one array of float64 per channel, NaN where
 // undefined. Throws UnsupportedOption for other endings, and for .npz above 4 GiB.
-void write_table(const Target& file, const sim::Table& table);
+void write_table(const FileTarget& file, const sim::Table& table);
 
 // The ending decides: .csv, .npz or .nc. Throws UnsupportedOption for others, IoError.
-void write_table(const Target& file, const ColumnTable& table);
+void write_table(const FileTarget& file, const ColumnTable& table);
 
 }  // namespace beamcam::output

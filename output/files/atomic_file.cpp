@@ -82,7 +82,7 @@ void require_below(const fs::path& file, const fs::path& real, const fs::path& f
 
 }  // namespace
 
-AtomicFile::AtomicFile(Target target) : target_(std::move(target)), real_(followed(target_.path)) {
+AtomicFile::AtomicFile(FileTarget target) : target_(std::move(target)), real_(followed(target_.path)) {
     require_file(target_.path, real_);
     directory_ = Descriptor(real_.parent_path(), O_PATH | O_DIRECTORY);
     if (!directory_) throw write_error(target_.path, errno);
@@ -134,7 +134,7 @@ void AtomicFile::commit(Durability durability) {
     if (durability == Durability::synced) sync_directory(real_.parent_path());
 }
 
-void write_file(const Target& target, std::string_view bytes, Durability durability) {
+void write_file(const FileTarget& target, std::string_view bytes, Durability durability) {
     AtomicFile file(target);
     file.write(bytes);
     file.commit(durability);

@@ -24,8 +24,8 @@ enum class Durability { synced, buffered };
 class AtomicFile {
   public:
     // Throws IoError if the directory is missing or read-only, or if the target is a directory or a device, or outside
-    // Target::within. Follows a symbolic link: the file that it points to is replaced, and the link stays.
-    explicit AtomicFile(Target target);
+    // FileTarget::within. Follows a symbolic link: the file that it points to is replaced, and the link stays.
+    explicit AtomicFile(FileTarget target);
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
@@ -35,13 +35,13 @@ class AtomicFile {
     void commit(Durability durability = Durability::synced);      // throws IoError; at most once
 
     const std::filesystem::path& target() const { return target_.path; }
-    // For libraries that open files themselves. Exists, empty, until they write to it.
+    // The path for libraries that open files themselves. It exists, empty, until they write to it.
     const std::filesystem::path& temporary_path() const { return temporary_; }
 
   private:
     void create();
 
-    Target target_;                    // its path as the user wrote it, for messages
+    FileTarget target_;                // its path as the user wrote it, for messages
     std::filesystem::path real_;       // absolute, links followed
     std::filesystem::path temporary_;  // absolute
     std::optional<TemporaryName> registered_;
@@ -51,7 +51,7 @@ class AtomicFile {
 };
 
 // Writes the whole of `bytes` to `target`, atomically.
-void write_file(const Target& target, std::string_view bytes, Durability durability = Durability::synced);
+void write_file(const FileTarget& target, std::string_view bytes, Durability durability = Durability::synced);
 
 // Throws IoError if symbolic links lead from `file`, which need not exist, to a place outside the folder.
 void require_within(const std::filesystem::path& file, const std::filesystem::path& folder);

@@ -16,7 +16,7 @@ namespace beamcam::output {
 
 namespace {
 
-// Without the configuration file of the library, which takes time and could select other implementations.
+// The configuration file of the library is not read: it takes time and could select other implementations.
 const EVP_MD* algorithm() {
     static const EVP_MD* const found = [] {
         OPENSSL_init_crypto(OPENSSL_INIT_NO_LOAD_CONFIG | OPENSSL_INIT_NO_ATEXIT, nullptr);

@@ -2,7 +2,6 @@
 
 #include <libdeflate.h>
 
-#include <algorithm>
 #include <new>
 
 namespace beamcam::output {
@@ -38,22 +37,6 @@ std::optional<std::string> Inflater::deflate(std::string_view packed, std::size_
         return std::nullopt;
     budget_ -= size;
     return plain;
-}
-
-std::optional<std::string> Inflater::zlib(std::string_view packed) {
-    for (std::size_t room = std::min<std::size_t>(1 << 16, budget_); room > 0; room = std::min(4 * room, budget_)) {
-        std::string plain(room, '\0');
-        std::size_t got = 0;
-        const auto result = libdeflate_zlib_decompress(decompressor_.get(), packed.data(), packed.size(), plain.data(),
-                                                       plain.size(), &got);
-        if (result == LIBDEFLATE_SUCCESS) {
-            budget_ -= got;
-            plain.resize(got);
-            return plain;
-        }
-        if (result != LIBDEFLATE_INSUFFICIENT_SPACE || room == budget_) return std::nullopt;
-    }
-    return std::nullopt;
 }
 
 }  // namespace beamcam::output

@@ -21,8 +21,6 @@ class Inflater {
 
     // A deflate stream of known size; nothing if it is damaged, has another size, or exceeds the budget.
     std::optional<std::string> deflate(std::string_view packed, std::size_t size);
-    // A zlib stream of unknown size; the same.
-    std::optional<std::string> zlib(std::string_view packed);
 
   private:
     struct Free {

@@ -17,7 +17,7 @@ void print_json(std::string_view text);  // for programs and people: see `escape
 // Flushes std::cout; errors are those of print_data.
 void flush_data();
 
-// For people, as print_text. A full disk or a closed pipe does not end the program.
+// Prints a message for people. A full disk or a closed pipe does not end the program.
 void write_message(std::string_view text) noexcept;
 template <typename... Values>
 void print_message(fmt::format_string<Values...> text, Values&&... values) {

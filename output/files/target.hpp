@@ -9,10 +9,10 @@
 
 namespace beamcam::output {
 
-struct Target {
+struct FileTarget {
     template <typename Path>
     // NOLINTNEXTLINE(bugprone-forwarding-reference-overload): a target is no path, so it never hides a copy.
-    requires std::convertible_to<Path, std::filesystem::path> Target(Path&& file)
+    requires std::convertible_to<Path, std::filesystem::path> FileTarget(Path&& file)
         : path(std::forward<Path>(file)) {}  // implicit: a path is a target
 
     std::filesystem::path path;

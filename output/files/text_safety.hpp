@@ -18,9 +18,9 @@ Character first_character(std::string_view text);
 // Replaces control characters other than tab and line feed, directional marks, line separators, and bytes that are not
 // UTF-8 by U+FFFD.
 std::string visible(std::string_view text);
-// The same; tabs and line breaks become spaces.
+// Like `visible`; tabs and line breaks become spaces, too.
 std::string one_line(std::string_view text);
-// The same for JSON, where such characters occur only in strings: they become \uXXXX.
+// The text of JSON, where such characters occur only in strings: they become \uXXXX.
 std::string escaped_json(std::string_view json);
 
 }  // namespace beamcam::output

@@ -10,7 +10,7 @@
 
 namespace beamcam::output {
 
-// Without the names of the file and without the palette.
+// The recipe has neither the names of the file nor the palette.
 struct EncoderRecipe : EncoderSettings {
     PixelLayout layout = PixelLayout::yuv420;
 };

@@ -63,7 +63,7 @@ struct VideoWriter::Impl {
     VideoStatistics cost;
     std::thread worker;
 
-    Impl(const Target& target, const VideoOptions& video_options) : file(target), options(video_options) {
+    Impl(const FileTarget& target, const VideoOptions& video_options) : file(target), options(video_options) {
         open();
         try {
             worker = std::thread([this] { work(); });
@@ -215,7 +215,7 @@ struct VideoWriter::Impl {
     }
 };
 
-VideoWriter::VideoWriter(const Target& file, const VideoOptions& options) {
+VideoWriter::VideoWriter(const FileTarget& file, const VideoOptions& options) {
     if (const auto found = problems(options, file.path.extension().string()); !found.empty()) {
         std::string text;
         for (const std::string& problem : found) text += (text.empty() ? "" : "\n") + problem;

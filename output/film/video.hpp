@@ -3,7 +3,7 @@
 // separate thread encodes them in order. The memory does not grow with the length of the film, except for animated
 // WebP.
 //
-// The same pictures and options give the same bytes on every machine with the same encoder.
+// Equal pictures and options give equal bytes on every machine with the same encoder.
 #pragma once
 
 #include <filesystem>
@@ -39,8 +39,8 @@ struct VideoStatistics {
 class VideoWriter {
   public:
     // Throws UnsupportedOption, MissingCodec, IoError.
-    VideoWriter(const Target& file, const VideoOptions& options);
-    // Without `finish`, removes the film.
+    VideoWriter(const FileTarget& file, const VideoOptions& options);
+    // Removes the film unless `finish` was called.
     ~VideoWriter();
     VideoWriter(const VideoWriter&) = delete;
     VideoWriter& operator=(const VideoWriter&) = delete;

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "output/files/errors.hpp"
+#include "output/image/raster.hpp"
 
 namespace beamcam::output {
 namespace {
@@ -41,7 +42,6 @@ const Container* container(std::string_view ending) {
     return at == kContainers.end() ? nullptr : &*at;
 }
 
-constexpr int kSmallestVideoSide = 16, kLargestVideoSide = 16384;      // x264's
 constexpr int kLargestWebpSide = 16383;                                // its fields have 14 bits
 constexpr std::int64_t kLargestPicture = (std::int64_t{1} << 31) - 1;  // av_image_check_size
 constexpr double kSlowest = 0.1, kFastest = 1000, kFastestGif = 50;    // [Hz]
@@ -102,9 +102,9 @@ std::string format_problem(std::string_view ending, Codec codec, bool transparen
 
 std::string size_problem(Codec codec, int width, int height) {
     const std::string size = std::to_string(width) + "x" + std::to_string(height);
-    if (std::min(width, height) < kSmallestVideoSide || std::max(width, height) > kLargestVideoSide)
-        return "a film of " + size + " pixels is not possible; both sides must be " +
-               std::to_string(kSmallestVideoSide) + " to " + std::to_string(kLargestVideoSide);
+    if (std::min(width, height) < kSmallestSide || std::max(width, height) > kLargestSide)
+        return "a film of " + size + " pixels is not possible; both sides must be " + std::to_string(kSmallestSide) +
+               " to " + std::to_string(kLargestSide);
     if (codec == Codec::webp && std::max(width, height) > kLargestWebpSide)
         return "an animated WebP of " + size + " pixels is not possible; both sides must be at most " +
                std::to_string(kLargestWebpSide) + ", or choose another codec";

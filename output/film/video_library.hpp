@@ -28,7 +28,7 @@ struct CodecFailure : std::runtime_error {
 
 using OptionList = std::vector<std::pair<std::string, std::string>>;
 
-// Of a film, and of its encoder.
+// The settings of a film and of its encoder.
 struct FilmSettings {
     int width = 1920, height = 1080;  // [px], 16…16384; even where the codec needs it
     FrameRate fps;
@@ -63,7 +63,7 @@ class Encoder {
     virtual void finish() = 0;
 };
 
-// What a film states about itself.
+// The facts that a film states about itself.
 struct VideoInfo {
     int width = 0, height = 0;  // [px]
     long frames = 0;            // 0: not stated

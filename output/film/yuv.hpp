@@ -18,7 +18,7 @@ namespace beamcam::output {
 // its chroma planes have half the width and height.
 void convert_to_yuv420(const render::Image& image, const FramePlanes& to, const render::DirtyTiles& part);
 
-// The same with transparency: colours not premultiplied, and a fourth plane of alpha, 0…255, full range. Chroma is the
+// Converts with transparency: colours not premultiplied, and a fourth plane of alpha, 0…255, full range. Chroma is the
 // mean of four pixels weighted by their alpha, so that invisible pixels have no influence.
 void convert_to_yuva420(const render::Image& image, const FramePlanes& to, const render::DirtyTiles& part);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstring>
 
 #include "output/image/png_reader.hpp"
 
@@ -13,11 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
+// "frame-9" before "frame-10".
 std::vector<fs::path> sorted(std::vector<fs::path> files) {
-    std::ranges::sort(files,
-                      [](const fs::path& a, const fs::path& b) { return natural_order(a.string(), b.string()); });
+    std::ranges::sort(files, [](const fs::path& a, const fs::path& b) { return strverscmp(a.c_str(), b.c_str()) < 0; });
     return files;
 }
 
@@ -39,20 +38,11 @@ std::vector<fs::path> pictures_in(const fs::path& directory) {
     return sorted(std::move(files));
 }
 
-// Does "fall-0012.png" belong to "fall-####.png"?
-bool belongs(const std::string& name, const std::string& before, const std::string& after) {
-    if (name.size() <= before.size() + after.size() || !name.starts_with(before) || !name.ends_with(after))
-        return false;
-    return std::all_of(name.begin() + static_cast<std::ptrdiff_t>(before.size()),
-                       name.end() - static_cast<std::ptrdiff_t>(after.size()), is_digit);
-}
-
 std::vector<fs::path> sequence(const fs::path& pattern) {
-    const std::string name = pattern.filename().string();
-    const std::string before = name.substr(0, name.find('#')), after = name.substr(name.find_last_of('#') + 1);
+    const NumberedName name(pattern.filename().string());
     const fs::path folder = pattern.parent_path();
     std::vector<fs::path> files = entries_of(folder.empty() ? fs::path(".") : folder);
-    std::erase_if(files, [&](const fs::path& file) { return !belongs(file.filename().string(), before, after); });
+    std::erase_if(files, [&](const fs::path& file) { return !name.number_in(file.filename().string()); });
     if (files.empty()) throw IoError("there are no files " + pattern.string());
     for (fs::path& file : files) file = folder / file.filename();
     return sorted(std::move(files));
@@ -60,26 +50,15 @@ std::vector<fs::path> sequence(const fs::path& pattern) {
 
 }  // namespace
 
-bool natural_order(const std::string& a, const std::string& b) {
-    std::size_t i = 0, k = 0;
-    while (i < a.size() && k < b.size()) {
-        if (!is_digit(a[i]) || !is_digit(b[k])) {
-            if (a[i] != b[k]) return static_cast<unsigned char>(a[i]) < static_cast<unsigned char>(b[k]);
-            ++i, ++k;
-            continue;
-        }
-        const auto number = [](const std::string& text, std::size_t& at) {
-            while (at < text.size() && text[at] == '0') ++at;
-            const std::size_t begin = at;
-            while (at < text.size() && is_digit(text[at])) ++at;
-            return text.substr(begin, at - begin);
-        };
-        const std::string m = number(a, i), n = number(b, k);
-        if (m.size() != n.size()) return m.size() < n.size();
-        if (m != n) return m < n;
-    }
-    if (i < a.size() || k < b.size()) return k < b.size();
-    return a < b;  // equal but for leading zeros
+NumberedName::NumberedName(std::string_view pattern)
+    : before(pattern.substr(0, pattern.find('#'))), after(pattern.substr(pattern.find_last_of('#') + 1)) {}
+
+std::optional<std::string_view> NumberedName::number_in(std::string_view file) const {
+    if (file.size() <= before.size() + after.size() || !file.starts_with(before) || !file.ends_with(after))
+        return std::nullopt;
+    file.remove_prefix(before.size());
+    file.remove_suffix(after.size());
+    return file.find_first_not_of("0123456789") == file.npos ? std::optional(file) : std::nullopt;
 }
 
 std::vector<fs::path> picture_files(const fs::path& path) {

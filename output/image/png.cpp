@@ -21,8 +21,8 @@ namespace beamcam::output {
 
 namespace {
 
-// Of libdeflate. Lower levels save at most a tenth of the time, level 1 takes twice the time; so do higher levels, for
-// files smaller by 0.1 %.
+// The level of libdeflate. Lower levels save at most a tenth of the time, level 1 takes twice the time; so do higher
+// levels, for files smaller by 0.1 %.
 constexpr int kCompressionLevel = 6;
 constexpr std::uint8_t kFilterUp = 2;  // each byte minus the byte above
 constexpr std::size_t kLongestChunk = 0x7fffffff;
@@ -114,7 +114,7 @@ std::string encode_png(const render::Image& image, const PngOptions& options) {
     return file;
 }
 
-void write_png(const Target& file, const render::Image& image, const PngOptions& options) {
+void write_png(const FileTarget& file, const render::Image& image, const PngOptions& options) {
     write_file(file, encode_png(image, options));
 }
 

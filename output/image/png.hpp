@@ -20,6 +20,6 @@ struct PngOptions {
 std::string encode_png(const render::Image& image, const PngOptions& options = {});
 
 // Throws IoError as well.
-void write_png(const Target& file, const render::Image& image, const PngOptions& options = {});
+void write_png(const FileTarget& file, const render::Image& image, const PngOptions& options = {});
 
 }  // namespace beamcam::output

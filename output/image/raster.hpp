@@ -13,8 +13,9 @@
 
 namespace beamcam::output {
 
-// Larger pictures than beamcam draws are rejected before memory is allocated for them.
-constexpr int kLargestSide = 16384;  // [px]
+// Sides of the pictures that beamcam draws, encodes and reads [px]. Below 16 nothing can be drawn; 16384 is the largest
+// viewport of OpenGL and the largest side of x264. Other pictures are rejected before memory is allocated for them.
+constexpr int kSmallestSide = 16, kLargestSide = 16384;
 
 struct Raster {
     int width = 0, height = 0;  // [px]

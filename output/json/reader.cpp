@@ -94,7 +94,7 @@ class TreeBuilder {
     struct Open {
         Node node;
         std::string key;  // of the member that is being read
-        Place key_place;
+        SourcePosition key_place;
         bool is_duplicate = false;
     };
 

@@ -18,17 +18,17 @@ struct Source {
     bool is_file = true;  // only messages of a file have line and column
 };
 
-struct Place {
+struct SourcePosition {
     std::size_t source = 0;  // index into the sources; 0 is the file
     std::size_t offset = 0;  // byte in Source::text
 
-    bool operator==(const Place&) const = default;
+    bool operator==(const SourcePosition&) const = default;
     // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes the 0 of the comparison for a pointer
-    auto operator<=>(const Place&) const = default;
+    auto operator<=>(const SourcePosition&) const = default;
 };
 
 struct Message {
-    Place place;
+    SourcePosition place;
     std::string text;   // key, value, reason and remedy
     bool fatal = true;  // false: a warning
 };
@@ -37,7 +37,7 @@ struct LineColumn {
     std::size_t line = 1, column = 1;  // from 1; a column is a character, not a byte
 };
 LineColumn locate(std::string_view text, std::size_t offset);
-// The same for many increasing offsets, in one pass over the text.
+// Finds line and column of many increasing offsets in one pass over the text.
 class Locator {
   public:
     explicit Locator(std::string_view text);
@@ -57,7 +57,7 @@ std::string describe(const std::vector<Source>& sources, std::vector<Message> me
 
 // A value for a message: in quotes, with visible control characters, shortened if long.
 std::string in_quotes(std::string_view text);
-// The same without quotes, for numbers.
+// A shortened value without quotes, for numbers.
 std::string shortened(std::string_view text);
 
 }  // namespace beamcam

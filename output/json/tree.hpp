@@ -61,7 +61,7 @@ struct Node {
     }
 
     Kind kind = Kind::null;
-    Place place;  // first byte of the value
+    SourcePosition place;  // first byte of the value
     bool boolean = false;
     double number = 0;
     std::string text;         // the value of a string; a number as it was written
@@ -75,14 +75,14 @@ struct Node {
 
 struct Member {
     std::string key;
-    Place key_place;
+    SourcePosition key_place;
     Node value;
 };
 
 inline std::size_t Members::size() const { return all_.size(); }
 
 Node array_node(std::vector<Node> items = {});
-// Of make(value) for each of the values.
+// The array of make(value) of each value.
 template <class Values, class Make>
 Node array_node(const Values& values, Make&& make) {
     Node array = array_node();

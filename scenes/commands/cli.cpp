@@ -90,7 +90,7 @@ struct Parsers {
 // Values separated by a character are several; throws UsageError for an empty one, as in "45deg,,3".
 std::function<void(const std::vector<std::string>&)> splitter(const Parameter& parameter) {
     return [&parameter](const std::vector<std::string>& words) {
-        auto& values = *std::get<std::vector<std::string>*>(parameter.target);
+        auto& values = *std::get<std::vector<std::string>*>(parameter.storage);
         for (const std::string& word : words)
             for (std::string& value : split(word, parameter.separator)) {
                 if (value.empty())
@@ -103,19 +103,19 @@ std::function<void(const std::vector<std::string>&)> splitter(const Parameter& p
 
 void add_parameter(CLI::App& app, const Parameter& parameter, Parsers& parsers) {
     CLI::Option* option = std::visit(
-        [&](const auto& target) {
-            using Stored = std::remove_cvref_t<decltype(target)>;
+        [&](const auto& storage) {
+            using Stored = std::remove_cvref_t<decltype(storage)>;
             if constexpr (std::is_same_v<Stored, bool*>)
-                return app.add_flag(parameter.names, *target, parameter.meaning);
+                return app.add_flag(parameter.names, *storage, parameter.meaning);
             else if constexpr (!std::is_pointer_v<Stored>)
-                return app.add_option_function(parameter.names, target, parameter.meaning)->type_name(parameter.value);
+                return app.add_option_function(parameter.names, storage, parameter.meaning)->type_name(parameter.value);
             else if (parameter.separator != 0)
                 return app.add_option_function(parameter.names, splitter(parameter), parameter.meaning)
                     ->type_name(parameter.value);
             else
-                return app.add_option(parameter.names, *target, parameter.meaning)->type_name(parameter.value);
+                return app.add_option(parameter.names, *storage, parameter.meaning)->type_name(parameter.value);
         },
-        parameter.target);
+        parameter.storage);
     option->required(parameter.is_required);
     if (!parameter.key.empty()) parsers.key_options.emplace_back(option, &parameter);
     if (!parameter.choices.empty()) option->check(CLI::IsMember(parameter.choices).description(""));
@@ -123,7 +123,7 @@ void add_parameter(CLI::App& app, const Parameter& parameter, Parsers& parsers) 
     if (parameter.problem) option->check(parameter.problem, "");
     if (parameter.limits) {
         const auto [low, high] = *parameter.limits;
-        const bool whole = std::holds_alternative<int*>(parameter.target);
+        const bool whole = std::holds_alternative<int*>(parameter.storage);
         option->check((whole ? CLI::Range(static_cast<int>(low), static_cast<int>(high)) : CLI::Range(low, high))
                           .description(""));
         // Range lets NaN pass.

@@ -19,7 +19,7 @@
 
 namespace beamcam::scenes {
 
-// In the order of --help.
+// The commands, in the order of --help.
 using AddCommand = void(Grammar& grammar);
 AddCommand add_run, add_render, add_simulate, add_sweep, add_collect, add_lyapunov, add_orbits, add_modes, add_check,
     add_plan, add_init, add_examples, add_schema, add_keys, add_hash, add_diff, add_test, add_info, add_doctor,
@@ -66,7 +66,7 @@ using output::print_text;
 void print_result(const Common& common, const std::string& json, const std::string& text);
 // Throws SceneError with every issue of the scene; warnings go to standard error.
 Scene load_scene(const std::string& path, const Common& common);
-// Those of the scenes that can be read, each with its film if it lists no outputs; the errors of the others are
+// Loads the scenes that can be read, each with its film if it lists no outputs; the errors of the others are
 // reported.
 struct LoadedScenes {
     std::vector<Scene> scenes;
@@ -86,9 +86,9 @@ void run_or_plan(std::span<const Scene> scenes, const RunOptions& options, const
 double signed_argument(const std::string& option, const std::string& text, const Dimension& dimension);
 // Requires the values of a range or list to have a unit each, or none; 0 needs none. Throws UsageError.
 void require_units(const std::string& option, const std::vector<std::string>& values);
-// The same, not negative.
+// A quantity that is not negative, read in the same way.
 double quantity_argument(const char* option, const std::string& text, const Dimension& dimension);
-// The same, positive.
+// A positive quantity, read in the same way.
 double positive_argument(const char* option, const std::string& text, const Dimension& dimension);
 // A length of time: turns of the cam if it is a plain number or an angle, or a time.
 sim::CamSpan span_argument(const char* option, const std::string& text);

@@ -1,4 +1,4 @@
-// What the commands share.
+// Options and arguments that the commands share.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -1,17 +1,10 @@
 // `beamcam doctor`: libraries, fonts and encoders of this machine.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <functional>
-#include <sstream>
 #include <stdexcept>
-#include <system_error>
 
-#include "output/files/descriptor.hpp"
 #include "output/film/video_library.hpp"
 #include "output/json/tree.hpp"
 #include "render/base/versions.hpp"
@@ -24,43 +17,6 @@
 
 namespace beamcam::scenes {
 namespace {
-
-constexpr char kReturned = '+', kThrown = '-';
-constexpr std::size_t kLongestAnswer = 1 << 16;  // [bytes]: many times the list of all encoders
-
-// The answer of the child: one of the two characters above, then the text.
-std::string answer_of(const std::function<std::string()>& work) {
-    try {
-        return kReturned + work();
-    } catch (const std::exception& error) {
-        return std::string(1, kThrown) + error.what();
-    }
-}
-
-// Returns the result of `work`, done in a child process, because a library may crash in it. Throws std::runtime_error
-// with the message of its exception, or with the signal that ended it. Only while the process has one thread.
-std::string in_child(const std::function<std::string()>& work) {
-    int ends[2];
-    if (pipe(ends) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
-    output::Descriptor from(ends[0]), to(ends[1]);
-    const pid_t child = fork();
-    if (child < 0) throw std::system_error(errno, std::generic_category(), "fork");
-    if (child == 0) {
-        to.write(answer_of(work));
-        _exit(0);
-    }
-    to.close();
-    std::string answer(kLongestAnswer, '\0');
-    answer.resize(static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, from.read(answer.data(), answer.size()))));
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
-    if (WIFSIGNALED(status))
-        throw std::runtime_error(fmt::format("the library ended with {}", strsignal(WTERMSIG(status))));
-    if (answer.empty()) throw std::runtime_error(fmt::format("the library ended with exit {}", WEXITSTATUS(status)));
-    if (answer.front() != kReturned) throw std::runtime_error(answer.substr(1));
-    return answer.substr(1);
-}
 
 struct Check {
     std::string group, part;
@@ -84,23 +40,13 @@ void examine(std::vector<Check>& checks, const char* group, const std::string& p
 }
 
 void examine_films(std::vector<Check>& checks) {
-    const std::string available = "available";
-    std::istringstream lines;  // the versions, then two lines for each encoder
+    output::VideoCapabilities found;
     examine(checks, "films", "FFmpeg", "install the Debian packages libavcodec59, libavformat59 (or newer)", [&] {
-        lines.str(in_child([&] {
-            const output::VideoCapabilities found = output::video_capabilities();
-            std::string text = found.versions + "\n";
-            for (const auto& [name, exists] : found.encoders)
-                text += fmt::format("{}\n{}\n", name, exists ? available : "not in these libraries");
-            return text;
-        }));
-        std::string versions;
-        std::getline(lines, versions);
-        return versions;
+        found = output::video_capabilities();
+        return found.versions;
     });
-    if (!checks.back().ok) return;
-    for (std::string name, state; std::getline(lines, name) && std::getline(lines, state);)
-        checks.push_back({"films", name + " encoder", state == available, state,
+    for (const auto& [name, exists] : found.encoders)
+        checks.push_back({"films", name + " encoder", exists, exists ? "available" : "not in these libraries",
                           "install the Debian package libavcodec59 or libavcodec-extra59 (or newer)"});
 }
 
@@ -123,14 +69,13 @@ std::vector<Check> examine_machine() {
     examine(
         checks, "pictures", "OpenGL",
         "install the Debian package libosmesa6, or libegl1 where libosmesa6 does not exist; flat views need neither",
-        [] { return in_child([] { return render::make_lit_renderer(16, 16)->name(); }); });
+        [] { return render::make_lit_renderer(16, 16)->name(); });
     examine_fonts("figures", render::font_files(render::Typefaces::print));
     examine_films(checks);
     examine(checks, "fingerprint", "flat", "see the fonts above", [] { return flat_fingerprint().id(); });
     examine(checks, "fingerprint", "figures", "see the fonts of figures above",
             [] { return figure_fingerprint().id(); });
-    examine(checks, "fingerprint", "lit", "see OpenGL above",
-            [] { return in_child([] { return lit_fingerprint().id(); }); });
+    examine(checks, "fingerprint", "lit", "see OpenGL above", [] { return lit_fingerprint().id(); });
     return checks;
 }
 

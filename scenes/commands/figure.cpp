@@ -28,7 +28,7 @@ struct FigureArguments {
     KeyOptions print{"figure"}, channels{"figure"}, span{"figure"};
     KeyOptions panel{"figure"};  // of the figure's only panel
     std::optional<std::string> data, caption;
-    // Of "series".
+    // Options of "series":
     std::vector<std::string> compare, notes;
     std::optional<std::string> title;
     bool impacts = false, residuals = false, logarithmic = false, apart = false;
@@ -69,7 +69,7 @@ std::string list(const FigureArguments& args, const Scene& scene) {
         text += fmt::format("{:<18} {}{}\n", name, render::to_plain(title),
                             refusal ? fmt::format(" (not for this scene: {})", *refusal) : "");
     };
-    for (const FigureType& type : figure_types()) add(type.name, type.title, refusal_of(type, scene));
+    for (const FigureType& type : figure_types()) add(type.name, type.title, type.refusal(scene));
     for (const Preset& preset : embedded_presets()) add(preset.name, preset.title(), refusal_of(preset, args, scene));
     return text;
 }
@@ -187,7 +187,7 @@ void act(const FigureArguments& given) {
     reject_options_of_others(args, *type);
     if (args.file.empty())
         throw UsageError(fmt::format("figure {}: name the file with -o, ending in .pdf, .svg or .png", args.figure));
-    if (const auto refusal = refusal_of(*type, scene))
+    if (const auto refusal = type->refusal(scene))
         throw SceneError(fmt::format("{}: no figure \"{}\": {}", args.scene, type->name, *refusal));
     scene.set_outputs({figure_output(args, preset, scene)});
     run_or_plan({&scene, 1}, run_options(args.common, ""), args.common);
@@ -220,10 +220,10 @@ void add_content_options(Command& app, FigureArguments& args) {
 
 void add_series_options(Command& app, FigureArguments& args) {
     args.panel.add_list(app, "--right", "panels.0.right", "CHANNEL,...")
-        .says("Of \"series\": channels of another unit, on an axis at the right");
-    app.option("--compare", &args.compare, "SCENE,...", "Of \"series\": the same channels of these scenes, too")
+        .says("In \"series\": channels of another unit, on an axis at the right");
+    app.option("--compare", &args.compare, "SCENE,...", "In \"series\": the same channels of these scenes, too")
         .separated_by(',');
-    const std::string one_panel = "Of \"series\" with one panel: ";
+    const std::string one_panel = "In \"series\" with one panel: ";
     args.panel.add_list(app, "--lines", "panels.0.lines", "V,...")
         .says(one_panel +
               "horizontal lines at these values of the left axis, such as 45deg; plain numbers are in SI units");
@@ -231,15 +231,15 @@ void add_series_options(Command& app, FigureArguments& args) {
         .says(one_panel + "lower end of the left axis, such as 45deg; a plain number is in SI units");
     args.panel.add(app, "--high", "panels.0.high", "V")
         .says(one_panel + "upper end of the left axis; a plain number is in SI units");
-    app.option("--title", &args.title, "TEXT", "Of \"series\" with one panel: its title; $θ$ is mathematics");
+    app.option("--title", &args.title, "TEXT", "In \"series\" with one panel: its title; $θ$ is mathematics");
     app.option("--note", &args.notes, "AT=TEXT",
-               "Of \"series\": a line with a text at an instant, for example impact:1=touch (repeatable)");
-    app.flag("--panels", args.apart, "Of \"series\" with --compare: separate panels for each motion");
+               "In \"series\": a line with a text at an instant, for example impact:1=touch (repeatable)");
+    app.flag("--panels", args.apart, "In \"series\" with --compare: separate panels for each motion");
     app.flag("--log", args.logarithmic,
-             "Of \"series\": logarithmic axes of values, which omit values that are not positive");
-    app.flag("--impacts", args.impacts, "Of \"series\": lines where impacts begin");
+             "In \"series\": logarithmic axes of values, which omit values that are not positive");
+    app.flag("--impacts", args.impacts, "In \"series\": lines where impacts begin");
     app.flag("--residuals", args.residuals,
-             "Of \"series\": below each panel with measured data, a panel with the differences");
+             "In \"series\": below each panel with measured data, a panel with the differences");
 }
 
 }  // namespace

@@ -11,11 +11,11 @@
 namespace beamcam::scenes {
 namespace {
 
-Parameter& add(std::deque<Parameter>& parameters, std::string names, Target target, std::string value,
+Parameter& add(std::deque<Parameter>& parameters, std::string names, ValueStorage storage, std::string value,
                std::string meaning) {
     Parameter& parameter = parameters.emplace_back();
     parameter.names = std::move(names);
-    parameter.target = target;
+    parameter.storage = storage;
     parameter.value = std::move(value);
     parameter.meaning = std::move(meaning);
     return parameter;
@@ -37,14 +37,14 @@ const DescribedKey& described_key(const Parameter& parameter) {
 
 }  // namespace
 
-void Command::flag(std::string names, bool& target, std::string meaning) {
-    add(parameters, std::move(names), &target, "", std::move(meaning));
+void Command::flag(std::string names, bool& storage, std::string meaning) {
+    add(parameters, std::move(names), &storage, "", std::move(meaning));
 }
-Parameter& Command::option(std::string names, Target target, std::string value, std::string meaning) {
-    return add(parameters, std::move(names), target, std::move(value), std::move(meaning));
+Parameter& Command::option(std::string names, ValueStorage storage, std::string value, std::string meaning) {
+    return add(parameters, std::move(names), storage, std::move(value), std::move(meaning));
 }
-Parameter& Command::positional(std::string positional_name, Target target, std::string meaning) {
-    return add(parameters, std::move(positional_name), target, "", std::move(meaning));
+Parameter& Command::positional(std::string positional_name, ValueStorage storage, std::string meaning) {
+    return add(parameters, std::move(positional_name), storage, "", std::move(meaning));
 }
 Command& add_command(std::deque<Command>& commands, std::string name, std::string summary) {
     Command& command = commands.emplace_back();

@@ -17,14 +17,16 @@
 
 namespace beamcam::scenes {
 
-// Where the parser stores a value. A vector collects repeated values; a bool becomes true; a function stores a word.
-using Target = std::variant<bool*, int*, double*, std::optional<double>*, std::string*, std::optional<std::string>*,
-                            std::vector<std::string>*, std::function<void(const std::string&)>>;
+// The storage of a value that the parser has read. A vector collects repeated values; a bool becomes true; a function
+// stores a word.
+using ValueStorage =
+    std::variant<bool*, int*, double*, std::optional<double>*, std::string*, std::optional<std::string>*,
+                 std::vector<std::string>*, std::function<void(const std::string&)>>;
 
 // A flag, an option or a positional argument of a command.
 struct Parameter {
     std::string names;  // "-o,--output"; a positional argument: "SCENE"
-    Target target;
+    ValueStorage storage;
     std::string value;                 // placeholder of an option's value in the help: "FILE"
     std::string meaning;               // help text; of an option that sets a key of an output, empty: see help_of
     std::string output_type, key;      // the option sets this key of outputs of this type: "video", "view.style"
@@ -51,7 +53,7 @@ struct Parameter {
 struct Command;
 Command& add_command(std::deque<Command>& commands, std::string name, std::string summary);
 
-// A new command, and its arguments: the targets of its options, which live as long as the command.
+// A new command, and its arguments: where its options store their values, which live as long as the command.
 template <class Arguments>
 struct BoundCommand {
     Command& command;
@@ -65,18 +67,18 @@ struct Command {
     std::deque<Parameter> parameters;
     std::function<int()> action;  // returns the exit code
 
-    // The targets must outlive the parsing.
-    void flag(std::string names, bool& target, std::string meaning);
-    Parameter& option(std::string names, Target target, std::string value, std::string meaning);
-    Parameter& positional(std::string name, Target target, std::string meaning);
+    // The storage must outlive the parsing.
+    void flag(std::string names, bool& storage, std::string meaning);
+    Parameter& option(std::string names, ValueStorage storage, std::string value, std::string meaning);
+    Parameter& positional(std::string name, ValueStorage storage, std::string meaning);
     // An option whose words are the names of an enumeration.
     template <class Enum, std::size_t n>
-    Parameter& choice(const std::string& names, Enum& target, const sim::Named<Enum> (&words)[n],
+    Parameter& choice(const std::string& names, Enum& storage, const sim::Named<Enum> (&words)[n],
                       const std::string& value, const std::string& meaning) {
         std::vector<std::string> allowed;
         for (const sim::Named<Enum>& each : words) allowed.emplace_back(each.name);
-        const auto store = [&target, &words](const std::string& word) {
-            target = std::ranges::find(words, word, &sim::Named<Enum>::name)->value;
+        const auto store = [&storage, &words](const std::string& word) {
+            storage = std::ranges::find(words, word, &sim::Named<Enum>::name)->value;
         };
         return option(names, store, value, meaning).one_of(std::move(allowed));
     }

@@ -31,7 +31,7 @@ struct Provenance {
 
 // ---- reading ---------------------------------------------------------------------------------------
 
-// Of a key in lower case: containers change the case.
+// The value of a key in lower case: containers change the case.
 std::string find(const std::map<std::string, std::string>& metadata, std::string_view key) {
     for (const auto& [name, value] : metadata)
         if (lowered(name) == key) return value;

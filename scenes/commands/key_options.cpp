@@ -58,7 +58,7 @@ Parameter& KeyOptions::add(Command& command, const char* name, const char* key, 
 Parameter& KeyOptions::add_list(Command& command, const char* name, const char* key, const char* placeholder,
                                 const char* note) {
     Parameter& parameter = add(command, name, key, placeholder, note).separated_by(',');
-    parameter.target = &options_.back().values;
+    parameter.storage = &options_.back().values;
     return parameter;
 }
 
@@ -104,7 +104,11 @@ Output read_output(Node output, std::initializer_list<const KeyOptions*> options
         if (option && message.text.starts_with("unknown key"))
             throw UsageError(fmt::format("{} belongs to outputs of type {}; this one is of type {}", option->name,
                                          types_with(option->key), output.find("type")->value.text));
-        const std::string text = option ? fmt::format("{}: {}", option->name, message.text) : message.text;
+        std::string text = message.text;
+        if (option && text.starts_with(option->key))  // "--low = "abc" …" in place of "panels.0.low = "abc" …"
+            text.replace(0, option->key.size(), option->name);
+        else if (option)
+            text = fmt::format("{}: {}", option->name, text);
         if (message.fatal) throw UsageError(text);
         inform(common, fmt::format("{}: warning: {}", scene_file, text));
     }

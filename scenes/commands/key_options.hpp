@@ -22,7 +22,7 @@ class KeyOptions {
 
     // The option `name` sets `key`, "view.style". `note`: text before the key's meaning in the help.
     Parameter& add(Command& command, const char* name, const char* key, const char* placeholder, const char* note = "");
-    // The same of a key whose value is a list: values separated by commas.
+    // An option for a key whose value is a list: values separated by commas.
     Parameter& add_list(Command& command, const char* name, const char* key, const char* placeholder,
                         const char* note = "");
 

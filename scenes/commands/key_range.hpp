@@ -14,7 +14,7 @@ struct KeyRange {
     double from = 0, to = 0;
 };
 
-// Of `--over`, whose unit diagrams take over. Throws UsageError, SceneError.
+// The range of `--over`, whose unit diagrams take over. Throws UsageError, SceneError.
 KeyRange range_argument(const std::string& over, const sim::Problem& problem, render::Units& units);
 
 }  // namespace beamcam::scenes

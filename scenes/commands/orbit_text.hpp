@@ -12,7 +12,7 @@ namespace beamcam::scenes {
 std::string to_text(const output::BranchTable& table, const render::Units& units);
 std::string value_text(const output::BranchTable& table, double value, const render::Units& units);  // "450 rpm"
 
-// What was searched in vain, and what to try.
+// The text about a search without result, and what to try.
 std::string nothing_found(const sim::OrbitRequest& request);
 
 }  // namespace beamcam::scenes

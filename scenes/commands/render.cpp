@@ -53,7 +53,7 @@ FigureOutput vector_still(const RenderArguments& args, const PictureOutput& film
     return figure;
 }
 
-// With the keys that it has in common with `film`.
+// The output gets the keys that it has in common with `film`.
 Output output_for_file(const RenderArguments& args, PictureOutput film) {
     const std::string ending = ending_of(args.file);
     require_ending("-o", args.file,

@@ -31,7 +31,7 @@ std::string content_of(const Result& result, const ResultFiles& files, Scene sce
     return figure_files(figure, how, to_json(scene)).front().second;
 }
 
-output::Target target_of(const std::string& file, const Scene& scene, output::FileList& file_list) {
+output::FileTarget target_of(const std::string& file, const Scene& scene, output::FileList& file_list) {
     const std::string ending = ending_of(file);
     if (ending != ".pdf" && ending != ".svg") return file_list.target(file);
     Scene shown = scene;

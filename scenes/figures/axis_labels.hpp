@@ -8,7 +8,8 @@
 
 namespace beamcam::scenes {
 
-// Of a key of the scene or a column of samples: "$ω$" for cam.speed; the name itself where it has no symbol.
+// The symbol of a key of the scene or of a column of samples: "$ω$" for cam.speed; the name itself where it has no
+// symbol.
 std::string symbol_of(const std::string& name);
 // "$ω$ / (rad s^{−1})"; without unit the symbol alone.
 std::string axis_label(const std::string& symbol, const std::string& unit);
@@ -22,7 +23,7 @@ struct Measure {
     double factor = 1;
     std::string unit;
 };
-// In the scene's unit of angles and of speeds; other quantities in SI units.
+// Angles and speeds are in the scene's units, other quantities in SI units.
 Measure measure_in(const render::Units& units, const std::string& si_unit);
 // The prefix that suits the largest value, in SI units; of m, N, J and s alone.
 Measure measure_of(const std::string& unit, double largest);

@@ -1,5 +1,5 @@
-// The caption of a figure: its title, the parameters that differ from the defaults, and the accuracy of its motions. All
-// texts are markup (render/draw/markup.hpp).
+// The caption of a figure: its title, the parameters that differ from the defaults, and the accuracy of its motions.
+// All texts are markup (render/draw/markup.hpp).
 #pragma once
 
 #include <array>
@@ -15,13 +15,13 @@ namespace beamcam::scenes {
 
 using render::phrase;
 
-std::string number(double value, int digits);            // "0.25", "2.5×10^{−3}" with a true minus
-std::string one_digit(double value);                     // "10^{−8}", "2 × 10^{−9}"
-std::string length_text(double metres);                  // "0.25 m", below a centimetre "236 µm"
-std::string grouped(double value, int decimals);         // "0.369 994": thin spaces between threes
-int decimals_of(double error);                           // that show two digits of an error, at most twelve
+std::string number(double value, int digits);     // "0.25", "2.5×10^{−3}" with a true minus
+std::string one_digit(double value);              // "10^{−8}", "2 × 10^{−9}"
+std::string length_text(double metres);           // "0.25 m", below a centimetre "236 µm"
+std::string grouped(double value, int decimals);  // "0.369 994": thin spaces between threes
+int decimals_of(double error);                    // that show two digits of an error, at most twelve
 
-// What a figure is about.
+// The subject of a figure.
 struct Subject {
     sim::Problem problem;
     render::Units units;  // of angles and speeds
@@ -33,8 +33,8 @@ inline Subject subject_of(const Scene& scene, Lang lang) { return {scene.problem
 // The motions that a figure shows.
 using Runs = std::vector<std::pair<const sim::Problem*, const sim::Result*>>;
 
-// "beam.modes = 6, cam.speed = 0": the keys of the scene that differ from the defaults and are the same in all problems,
-// in SI units; empty: there are none.
+// "beam.modes = 6, cam.speed = 0": the keys of the scene that differ from the defaults and are the same in all
+// problems, in SI units; empty: there are none.
 std::string parameters(const std::vector<const sim::Problem*>& problems);
 // "Relative tolerance 10⁻⁸; at the ends of steps the energy balance closes to 2 × 10⁻⁹ of its scale.", of several
 // motions the worst.

@@ -1,4 +1,4 @@
-// Where on beam and cam contact happens.
+// The places of contact on beam and cam.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -124,13 +124,13 @@ Figure forceful_places(const Subject& subject, const sim::Result& result, const 
     return {.panels = lettered(std::move(panels)), .stack = true, .share_x = true, .aspect = 1.1};
 }
 
-FigureDrawing prepare_places(const Scene& scene, const FigureOutput&, Studies& studies) {
-    const std::size_t study = studies.of(scene.problem, scene.end_time);
-    if (scene.problem.contact.model != sim::ContactModel::compliant) return figure_of_motion(study, impulsive_places);
+FigureDrawing prepare_places(const Scene& scene, const FigureOutput&, MotionRequests& requests) {
+    const std::size_t motion = requests.motion(scene.problem, scene.end_time);
+    if (scene.problem.contact.model != sim::ContactModel::compliant) return figure_of_motion(motion, impulsive_places);
     const std::size_t table =
-        studies.curve(study, {0, scene.end_time, contact_rows(scene.end_time)}, {}, {ChannelKind::contact_force, 0},
-                      {sim::Channel{ChannelKind::contact_x}, sim::Channel{ChannelKind::contact_s}});
-    return figure_of_motion(study, [table](const Subject& subject, const sim::Result& result) {
+        requests.curve(motion, {0, scene.end_time, contact_rows(scene.end_time)}, {}, {ChannelKind::contact_force, 0},
+                       {sim::Channel{ChannelKind::contact_x}, sim::Channel{ChannelKind::contact_s}});
+    return figure_of_motion(motion, [table](const Subject& subject, const sim::Result& result) {
         return forceful_places(subject, result, result.tables[table]);
     });
 }
@@ -139,7 +139,7 @@ FigureDrawing prepare_places(const Scene& scene, const FigureOutput&, Studies& s
 
 extern const FigureType kContactPlaces{
     "contact-places",
-    "Contact point on the beam from its root, and on the cam from the ray $C$$B$, coloured by the normal force", needs_cam,
-    prepare_places};
+    "Contact point on the beam from its root, and on the cam from the ray $C$$B$, coloured by the normal force",
+    needs_cam, prepare_places};
 
 }  // namespace beamcam::scenes

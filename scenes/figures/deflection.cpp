@@ -73,14 +73,13 @@ DeflectionCurves shape_of(const sim::Problem& problem, double angle, double supp
     return out;
 }
 
-Figure deflection_figure(const Subject& subject, const Results&) {
+Figure deflection_figure(const Subject& subject, const MotionResults&) {
     const auto& [problem, units, lang, end] = subject;
     const Inclination at = inclination(problem);
     const double reach = problem.beam.length * std::cos(at.angle);
     const std::span curves(kCurves.data(), is_of_the_paper(problem) ? kCurves.size() : 1);
     const bool several = curves.size() > 1;
-    Panel shape{.x = {.label = phrase(lang, "horizontal distance $x$ from $O$ / m"),
-                      .tight = true},
+    Panel shape{.x = {.label = phrase(lang, "horizontal distance $x$ from $O$ / m"), .tight = true},
                 .y = {.label = "$v$ / mm"},
                 .rules = {{.at = 0}},
                 .legend = Legend::box},
@@ -114,7 +113,7 @@ Figure deflection_figure(const Subject& subject, const Results&) {
     return figure;
 }
 
-FigureDrawing prepare_deflection(const Scene&, const FigureOutput&, Studies&) { return deflection_figure; }
+FigureDrawing prepare_deflection(const Scene&, const FigureOutput&, MotionRequests&) { return deflection_figure; }
 
 std::optional<std::string> needs_static_bending(const Scene& scene) {
     const sim::Problem& p = scene.problem;
@@ -132,9 +131,7 @@ std::optional<std::string> needs_static_bending(const Scene& scene) {
 
 }  // namespace
 
-extern const FigureType kDeflection{"deflection",
-                                    "Static deflection for several contact points",
-                                    needs_static_bending,
+extern const FigureType kDeflection{"deflection", "Static deflection for several contact points", needs_static_bending,
                                     prepare_deflection};
 
 }  // namespace beamcam::scenes

@@ -194,15 +194,15 @@ Panel arrivals_panel(const Trial& trial, const sim::Result& strikes, Lang lang) 
     return inset;
 }
 
-FigureDrawing prepare_distance(const Scene& scene, const FigureOutput&, Studies& studies) {
+FigureDrawing prepare_distance(const Scene& scene, const FigureOutput&, MotionRequests& requests) {
     const sim::Problem falling = without_cam(scene.problem);
     const Instants all{0, scene.end_time, fall_rows(scene.end_time)};
-    const std::size_t fall = studies.of(falling, scene.end_time);
+    const std::size_t fall = requests.motion(falling, scene.end_time);
     const Stations searched = stations(scene.problem);
     std::vector<std::size_t> where;
-    for (const double x : searched.x) where.push_back(studies.point(fall, x, all));
-    const std::size_t touching = studies.of(scene.problem, scene.end_time);
-    return [=](const Subject& subject, const Results& results) -> Figure {
+    for (const double x : searched.x) where.push_back(requests.point(fall, x, all));
+    const std::size_t touching = requests.motion(scene.problem, scene.end_time);
+    return [=](const Subject& subject, const MotionResults& results) -> Figure {
         const auto& [problem, units, lang, end] = subject;
         const sim::Result &falls = *results[fall], &strikes = *results[touching];
         const Trial trial = try_points(falls, searched, where, instants(all), problem);
@@ -220,15 +220,15 @@ std::optional<std::string> needs_tangent(const Scene& scene) {
     const sim::Cam& cam = *scene.problem.cam;
     const double distance = norm(cam.centre);
     if (distance - cam.eccentricity <= cam.radius) return "the cam reaches the hinge, so no tangent to it exists";
-    return std::nullopt;
+    return refusal_of_variants({without_cam(scene.problem)});
 }
 
 }  // namespace
 
-extern const FigureType kDistance{"distance",
-                                  "Distance of points of the freely falling beam from the cam near the first touch; inset: when it is zero, by "
-                                  "trial points, their refinement and the located touch",
-                                  needs_tangent,
-                                  prepare_distance};
+extern const FigureType kDistance{
+    "distance",
+    "Distance of points of the freely falling beam from the cam near the first touch; inset: when it is zero, by "
+    "trial points, their refinement and the located touch",
+    needs_tangent, prepare_distance};
 
 }  // namespace beamcam::scenes

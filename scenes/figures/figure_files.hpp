@@ -22,8 +22,8 @@ render::Image figure_image(const render::figure::Figure& figure, const FigureOut
 // The scene that is embedded in a figure: its physics and this figure, without the name of its file.
 std::string scene_of_figure(Scene scene, FigureOutput how);
 
-// For each axis whose limits hide all curves "no curve: θ / rad is between 0.1 and 0.8, beyond the ends of its axis",
-// and for each panel whose motions have none "no points".
+// Messages: for each axis whose limits hide all curves "no curve: θ / rad is between 0.1 and 0.8, beyond the ends of
+// its axis", and for each panel whose motions have none "no points".
 std::vector<std::string> missing_data(const render::figure::Figure& figure);
 
 }  // namespace beamcam::scenes

@@ -44,10 +44,10 @@ static void shorten_times(std::vector<Panel>& panels) {
     for (Panel& panel : panels) panel.x.short_numbers = panel.x.short_numbers || is_in_seconds(panel);
 }
 
-FigureMaker FigureType::prepare(const Scene& scene, const FigureOutput& how, Studies& studies) const {
-    return [draw = of_sweep() ? swept_figure(*this, how) : maker(scene, how, studies),
+FigureMaker FigureType::prepare(const Scene& scene, const FigureOutput& how, MotionRequests& requests) const {
+    return [draw = of_sweep() ? swept_figure(*this, how) : maker(scene, how, requests),
             subject = subject_of(scene, how.lang), called = std::string(name), chosen = how.title,
-            usual = title](const Results& results) {
+            usual = title](const MotionResults& results) {
         render::figure::Figure figure = draw(subject, results);
         figure.name = called;
         if (figure.title.empty()) figure.title = usual;
@@ -99,12 +99,9 @@ const FigureType* figure_type(std::string_view name) {
     return it == table().end() ? nullptr : &*it;
 }
 
-std::optional<std::string> refusal_of(const FigureType& type, const Scene& scene) {
-    if (auto why = type.refusal(scene)) return why;
-    Studies studies;
-    type.prepare(scene, {}, studies);
-    for (const MotionRequest& study : studies.take())
-        for (const sim::Issue& finding : sim::validate(study.problem))
+std::optional<std::string> refusal_of_variants(std::initializer_list<sim::Problem> variants) {
+    for (const sim::Problem& variant : variants)
+        for (const sim::Issue& finding : sim::validate(variant))
             if (finding.fatal)
                 return fmt::format("it computes a variant of the scene too, in which {}: {}", finding.path,
                                    finding.message);
@@ -124,11 +121,6 @@ std::optional<std::string> needs_bending(const Scene& scene) {
 std::optional<std::string> needs_free_hub(const Scene& scene) {
     if (!sim::is_prescribed(scene.problem.hub.drive)) return std::nullopt;
     return "the hub's motion is prescribed, so it cannot fall; set hub.drive to {\"type\": \"free\"}";
-}
-
-std::optional<std::string> needs_fall(const Scene& scene) {
-    if (auto why = needs_free_hub(scene)) return why;
-    return needs_start_off_the_cam(scene);
 }
 
 std::optional<std::string> needs_start_off_the_cam(const Scene& scene) {
@@ -152,18 +144,19 @@ const sim::Collision* collision_of(const sim::Problem& problem, const sim::Resul
 
 int contact_rows(double end) { return static_cast<int>(std::clamp(end / 2e-5, 4e4, 4e5)) + 1; }
 
-FigureDrawing figure_of_motion(std::size_t study, MotionDrawing draw) {
-    return [study, draw = std::move(draw)](const Subject& subject, const Results& results) {
-        Figure figure = draw(subject, *results[study]);
-        add_caption(figure, {{&subject.problem, results[study]}});
+FigureDrawing figure_of_motion(std::size_t motion, MotionDrawing draw) {
+    return [motion, draw = std::move(draw)](const Subject& subject, const MotionResults& results) {
+        Figure figure = draw(subject, *results[motion]);
+        add_caption(figure, {{&subject.problem, results[motion]}});
         return figure;
     };
 }
 
-ShownPoses request_poses(const Scene& scene, const FigureOutput& how, int count, int stations, Studies& studies) {
+ShownPoses request_poses(const Scene& scene, const FigureOutput& how, int count, int stations,
+                         MotionRequests& requests) {
     ShownPoses out{how.series.from, how.series.to.value_or(scene.end_time)};
-    out.study = studies.of(scene.problem, out.to);
-    std::vector<sim::PoseRequest>& poses = studies.request(out.study).poses;
+    out.motion = requests.motion(scene.problem, out.to);
+    std::vector<sim::PoseRequest>& poses = requests.request(out.motion).poses;
     out.poses = poses.size();
     poses.push_back({.times = instants({out.from, out.to, count}), .stations = stations});
     return out;

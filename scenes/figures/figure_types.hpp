@@ -1,11 +1,10 @@
-// The figures by name: what each needs of the mechanics, and how it comes out of the results.
-//
-// A type first adds its needs to a set of studies that all figures share, then makes a Figure from the results. It
-// neither integrates nor draws.
+// The figures by name: the motions that each needs, and the figure that it makes from their results. A type neither
+// integrates nor draws.
 #pragma once
 
 #include <algorithm>
 #include <functional>
+#include <initializer_list>
 #include <iterator>
 #include <optional>
 #include <span>
@@ -16,33 +15,34 @@
 #include "render/base/error.hpp"
 #include "render/plot/figure.hpp"
 #include "scenes/figures/caption.hpp"
-#include "scenes/figures/studies.hpp"
+#include "scenes/figures/motion_requests.hpp"
 #include "scenes/scene/scene.hpp"
 
 namespace beamcam::scenes {
 
-// What figures are made of.
+// Parts of figures, by their short names.
 using render::figure::Figure;
 using render::figure::Legend;
 using render::figure::Panel;
 using render::figure::Series;
 using sim::ChannelKind;
 
-using FigureDrawing = std::function<Figure(const Subject&, const Results&)>;
-using FigureMaker = std::function<Figure(const Results&)>;  // of one subject
+using FigureDrawing = std::function<Figure(const Subject&, const MotionResults&)>;
+using FigureMaker = std::function<Figure(const MotionResults&)>;  // of one subject
 
 class SweptPoints;
 
 struct FigureType {
     const char* name;
     const char* title;
-    // Why the scene has no such figure, with the remedy; nothing when it has. `refusal_of` checks more.
+    // Why the scene has no such figure, with the remedy; nothing when it has.
     std::optional<std::string> (*refusal)(const Scene& scene);
-    // Of motions: requests them, and returns the function that draws their results. Null for a figure of a sweep.
-    FigureDrawing (*maker)(const Scene& scene, const FigureOutput& how, Studies& studies) = nullptr;
-    // Of the scene's sweep: draws its points.
+    // Requests the motions of the figure, and returns the function that draws their results. Null for a figure of a
+    // sweep.
+    FigureDrawing (*maker)(const Scene& scene, const FigureOutput& how, MotionRequests& requests) = nullptr;
+    // Draws the points of the scene's sweep. Null for a figure of motions.
     Figure (*draw)(const SweptPoints& points, const FigureOutput& how) = nullptr;
-    // Those keys of its output that only some figures have: "from", "to".
+    // The keys of its output that only some figures have: "from", "to".
     std::vector<std::string_view> keys = {};
 
     bool of_sweep() const { return draw != nullptr; }
@@ -50,9 +50,9 @@ struct FigureType {
     // "belongs to the figures "map" and "basins"; remove it", for a key that others have; nothing for one of its own
     // or of all figures.
     std::optional<std::string> misplaced(std::string_view key) const;
-    // Adds what the figure needs to the studies; the maker remembers where it is. The figure has the type's name, and
-    // the title of `how`, or else its own or that of the type.
-    FigureMaker prepare(const Scene& scene, const FigureOutput& how, Studies& studies) const;
+    // Adds the motions of the figure to the requests; the maker reads their results. The figure has the type's name,
+    // and the title of `how`, or else its own or that of the type.
+    FigureMaker prepare(const Scene& scene, const FigureOutput& how, MotionRequests& requests) const;
 };
 
 std::span<const FigureType> figure_types();
@@ -64,8 +64,8 @@ std::vector<std::string_view> keys_of_figures();
 std::vector<std::string> figures_with(std::string_view key);
 std::string list_of_figures_with(std::string_view key);  // "\"map\" and \"basins\""
 
-// The type's own refusal, or that of a motion without which it has no figure: the problem is impossible.
-std::optional<std::string> refusal_of(const FigureType& type, const Scene& scene);
+// Why a figure that also computes these variants of a scene is refused: one of them is impossible.
+std::optional<std::string> refusal_of_variants(std::initializer_list<sim::Problem> variants);
 
 // ---- what they share ------------------------------------------------------------------------------
 
@@ -74,19 +74,19 @@ std::optional<std::string> needs_cam(const Scene& scene);
 std::optional<std::string> needs_bending(const Scene& scene);
 std::optional<std::string> needs_free_hub(const Scene& scene);
 std::optional<std::string> needs_start_off_the_cam(const Scene& scene);
-std::optional<std::string> needs_fall(const Scene& scene);  // both of these
 
 // "(a)" is panel 0.
 std::string panel_letter(std::size_t panel);
 // Gives the panels their letters, if there are several.
 std::vector<Panel> lettered(std::vector<Panel> panels);
 
-// Of an impact or a collision. A beam that rests on the cam at the start touches it without striking it.
+// Whether an impact or a collision is a strike. A beam that rests on the cam at the start touches it without striking
+// it.
 template <class Touch>
 bool strikes(const sim::Problem& problem, const Touch& touch) {
     return touch.t_start > 0 || problem.initial.shape != sim::InitialShape::resting;
 }
-// Those that begin within an interval.
+// The strikes that begin within an interval.
 template <class Touch>
 std::vector<Touch> strikes(const sim::Problem& problem, const std::vector<Touch>& touches, double from, double to) {
     std::vector<Touch> out;
@@ -103,15 +103,16 @@ int contact_rows(double end);
 
 // Draws the result of the scene's own motion, and adds caption and accuracy.
 using MotionDrawing = std::function<Figure(const Subject&, const sim::Result&)>;
-FigureDrawing figure_of_motion(std::size_t study, MotionDrawing draw);
+FigureDrawing figure_of_motion(std::size_t motion, MotionDrawing draw);
 
 // Poses of the scene's motion, equally spaced over the interval that a figure shows, both ends included.
 struct ShownPoses {
-    double from = 0, to = 0;           // [s]
-    std::size_t study = 0, poses = 0;  // poses: index into the study's Result::poses
+    double from = 0, to = 0;            // [s]
+    std::size_t motion = 0, poses = 0;  // poses: index into the motion's Result::poses
 };
 // `stations`: points along the beam.
-ShownPoses request_poses(const Scene& scene, const FigureOutput& how, int count, int stations, Studies& studies);
+ShownPoses request_poses(const Scene& scene, const FigureOutput& how, int count, int stations,
+                         MotionRequests& requests);
 
 // Natural frequencies of the bending vibrations [Hz], ascending; none of a rigid beam.
 std::vector<double> frequencies_of(const sim::Problem& problem);

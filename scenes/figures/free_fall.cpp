@@ -23,20 +23,20 @@ std::optional<double> closed_form(const sim::Problem& p) {
     return sim::rod_fall_time(p.beam.length, p.gravity, p.initial.angle, 1);
 }
 
-// A beam of the figure, with its study and its tables of θ.
+// A beam of the figure, with its motion and its tables of θ.
 struct Fall {
     const char* label = "";
     int look = 0;
     sim::Problem problem = {};
-    std::size_t study = 0, table = 0;
+    std::size_t motion = 0, table = 0;
     std::optional<std::size_t> close = {};  // in close-up
 
-    std::optional<double> zero(const Results& results) const {
-        const std::vector<sim::ZeroCrossing>& all = results[study]->theta_zero;
+    std::optional<double> zero(const MotionResults& results) const {
+        const std::vector<sim::ZeroCrossing>& all = results[motion]->theta_zero;
         return all.empty() ? std::nullopt : std::optional(all.front().t);
     }
-    Series curve(const Results& results, std::size_t of, std::string name) const {
-        const sim::Table& t = results[study]->tables[of];
+    Series curve(const MotionResults& results, std::size_t of, std::string name) const {
+        const sim::Table& t = results[motion]->tables[of];
         return {
             .label = std::move(name), .x = column(t, ChannelKind::t), .y = column(t, ChannelKind::theta), .look = look};
     }
@@ -49,13 +49,13 @@ struct Falls {
     std::optional<double> closely;  // when the rigid beam is level, if the inset shows it [s]
 
     const Fall& rigid() const { return shown[flexible ? 1 : 0]; }
-    void mark_zero(const Fall& fall, const Results& results, bool hollow, Panel& panel) const {
+    void mark_zero(const Fall& fall, const MotionResults& results, bool hollow, Panel& panel) const {
         if (const auto zero = fall.zero(results))
             panel.marks.push_back({.x = *zero, .y = 0, .look = fall.look, .hollow = hollow});
     }
 };
 
-Falls falls_of(const Scene& scene, Studies& studies) {
+Falls falls_of(const Scene& scene, MotionRequests& requests) {
     const double end = scene.end_time;
     Falls out;
     const sim::Problem own = without_cam(scene.problem), stiff = rigid(own);
@@ -69,19 +69,19 @@ Falls falls_of(const Scene& scene, Studies& studies) {
     out.shown.push_back({"rigid", 1, stiff});
     if (out.paper) out.shown.push_back({"rigid, factor 2", 2, doubled});
     for (Fall& fall : out.shown) {
-        fall.study = studies.of(fall.problem, end);
-        studies.zero_crossings(fall.study);
-        fall.table = studies.table(fall.study, {0, end, kFallPoints}, {ChannelKind::t, ChannelKind::theta});
+        fall.motion = requests.motion(fall.problem, end);
+        requests.zero_crossings(fall.motion);
+        fall.table = requests.table(fall.motion, {0, end, kFallPoints}, {ChannelKind::t, ChannelKind::theta});
         if (out.closely && fall.look < 2)
-            fall.close = studies.table(fall.study, {*out.closely - kAround, *out.closely + kAround, 241},
-                                       {ChannelKind::t, ChannelKind::theta});
+            fall.close = requests.table(fall.motion, {*out.closely - kAround, *out.closely + kAround, 241},
+                                        {ChannelKind::t, ChannelKind::theta});
     }
     return out;
 }
 
 // Microseconds about the closed form, microradians about zero, if both beams cross there. `factor`: of the angles
 // around it.
-std::optional<render::figure::Inset> close_up(const Falls& falls, const Results& results, double factor) {
+std::optional<render::figure::Inset> close_up(const Falls& falls, const MotionResults& results, double factor) {
     const double exact = *falls.closely;
     Panel panel{.x = {.label = fmt::format("($t$ − {} s) / µs", grouped(exact, 6)), .tight = true},
                 .y = {.label = "$θ$ / µrad"},
@@ -98,7 +98,7 @@ std::optional<render::figure::Inset> close_up(const Falls& falls, const Results&
         s.solid = fall.look == 0;
         panel.series.push_back(std::move(s));
         panel.marks.push_back({.x = (*zero - exact) * 1e6, .y = 0, .look = fall.look});
-        slope = std::abs(results[fall.study]->theta_zero.front().theta_dot);
+        slope = std::abs(results[fall.motion]->theta_zero.front().theta_dot);
     }
     constexpr double kDistinct = 0.2;  // [µs]: closer crossings coincide in the inset
     if (std::abs(panel.marks.front().x - panel.marks.back().x) < kDistinct) return std::nullopt;
@@ -110,7 +110,7 @@ std::optional<render::figure::Inset> close_up(const Falls& falls, const Results&
                                                 factor * slope * kAround}};
 }
 
-Panel fall_panel(const Falls& falls, const Results& results, const Subject& subject) {
+Panel fall_panel(const Falls& falls, const MotionResults& results, const Subject& subject) {
     const Measure angle = measure_in(subject.units, "rad");
     Panel panel{.x = {.label = "$t$ / s", .tight = true},
                 .y = {.label = axis_label("$θ$", angle.unit)},
@@ -136,19 +136,25 @@ Panel fall_panel(const Falls& falls, const Results& results, const Subject& subj
     return panel;
 }
 
-FigureDrawing prepare_fall(const Scene& scene, const FigureOutput&, Studies& studies) {
-    return [falls = falls_of(scene, studies)](const Subject& subject, const Results& results) -> Figure {
+FigureDrawing prepare_fall(const Scene& scene, const FigureOutput&, MotionRequests& requests) {
+    return [falls = falls_of(scene, requests)](const Subject& subject, const MotionResults& results) -> Figure {
         Runs runs;
-        for (const Fall& fall : falls.shown) runs.emplace_back(&fall.problem, results[fall.study]);
+        for (const Fall& fall : falls.shown) runs.emplace_back(&fall.problem, results[fall.motion]);
         Figure figure{.panels = {fall_panel(falls, results, subject)}, .aspect = 0.74};
         add_caption(figure, runs);
         return figure;
     };
 }
 
+std::optional<std::string> needs_fall(const Scene& scene) {
+    if (auto why = needs_free_hub(scene)) return why;
+    if (auto why = needs_start_off_the_cam(scene)) return why;
+    const sim::Problem falling = without_cam(scene.problem);
+    return refusal_of_variants({falling, rigid(falling)});
+}
+
 }  // namespace
 
-extern const FigureType kFreeFall{
-    "free-fall", "Hub angle without the cam", needs_fall, prepare_fall};
+extern const FigureType kFreeFall{"free-fall", "Hub angle without the cam", needs_fall, prepare_fall};
 
 }  // namespace beamcam::scenes

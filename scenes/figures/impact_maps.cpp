@@ -40,7 +40,9 @@ void spread_ratios(Panel& panel) {
 // Restitution against speed, each collision against the next, and two speeds of each impact against the cam's phase.
 std::vector<Panel> impact_maps(const Subject& subject, const sim::Result& result, double from, double to) {
     const auto& [problem, units, lang, end] = subject;
-    const auto speed = [&](const char* which) { return axis_label(phrase(subject.lang, "approach speed") + which, "m/s"); };
+    const auto speed = [&](const char* which) {
+        return axis_label(phrase(subject.lang, "approach speed") + which, "m/s");
+    };
     const Measure turning = measure_in(units, "rad/s");
     Panel loss = map_panel(speed(""), phrase(lang, "coefficient of restitution")),
           next = map_panel(speed(" $k$"), speed(" $k$\u00A0+\u00A01")), phase = map_panel(phase_label(lang), speed("")),
@@ -59,9 +61,9 @@ std::vector<Panel> impact_maps(const Subject& subject, const sim::Result& result
     return {loss, next, phase, hub};
 }
 
-FigureDrawing prepare_maps(const Scene& scene, const FigureOutput& how, Studies& studies) {
+FigureDrawing prepare_maps(const Scene& scene, const FigureOutput& how, MotionRequests& requests) {
     const double from = how.series.from, to = how.series.to.value_or(scene.end_time);
-    const std::size_t study = studies.of(scene.problem, to);
+    const std::size_t motion = requests.motion(scene.problem, to);
     const auto draw = [=](const Subject& subject, const sim::Result& result) -> Figure {
         std::vector<Panel> panels = impact_maps(subject, result, from, to);
         std::erase_if(panels, [](const Panel& panel) { return panel.series.front().x.empty(); });
@@ -72,7 +74,7 @@ FigureDrawing prepare_maps(const Scene& scene, const FigureOutput& how, Studies&
         for (std::size_t k = 0; k < panels.size(); ++k) panels[k].letter = panel_letter(k);
         return {.panels = std::move(panels), .aspect = aspect};
     };
-    return figure_of_motion(study, draw);
+    return figure_of_motion(motion, draw);
 }
 
 // Counts the values in intervals of a round width from 0 to `end`, which the last one includes.
@@ -91,9 +93,9 @@ Panel histogram(std::string label, const std::vector<double>& values, double end
             .legend = Legend::none};
 }
 
-FigureDrawing prepare_histograms(const Scene& scene, const FigureOutput& how, Studies& studies) {
+FigureDrawing prepare_histograms(const Scene& scene, const FigureOutput& how, MotionRequests& requests) {
     const double from = how.series.from, to = how.series.to.value_or(scene.end_time);
-    const std::size_t study = studies.of(scene.problem, to);
+    const std::size_t motion = requests.motion(scene.problem, to);
     const auto draw = [=](const Subject& subject, const sim::Result& result) -> Figure {
         const Lang lang = subject.lang;
         std::vector<double> speeds, phases;
@@ -105,25 +107,27 @@ FigureDrawing prepare_histograms(const Scene& scene, const FigureOutput& how, St
                 "figure impact-histograms: {} impacts from {:g} s to {:g} s are too few for a histogram; raise "
                 "time.end, or see impact-maps",
                 speeds.size(), from, to));
-        std::vector<Panel> panels = lettered(
-            {histogram(axis_label(phrase(lang, "approach speed"), "m/s"), speeds, *std::ranges::max_element(speeds), lang),
-             histogram(phase_label(lang), phases, 1, lang)});
+        std::vector<Panel> panels = lettered({histogram(axis_label(phrase(lang, "approach speed"), "m/s"), speeds,
+                                                        *std::ranges::max_element(speeds), lang),
+                                              histogram(phase_label(lang), phases, 1, lang)});
         return {.panels = std::move(panels), .aspect = 1.2};
     };
-    return figure_of_motion(study, draw);
+    return figure_of_motion(motion, draw);
 }
 
 }  // namespace
 
-extern const FigureType kImpactMaps{.name = "impact-maps",
-                                    .title = "Restitution of the impacts, successive collisions, and speeds at impact over the phase of the cam",
-                                    .refusal = needs_cam,
-                                    .maker = prepare_maps,
-                                    .keys = {"from", "to"}};
-extern const FigureType kImpactHistograms{.name = "impact-histograms",
-                                          .title = "Histograms of the approach speed and of the phase of the cam at impacts",
-                                          .refusal = needs_cam,
-                                          .maker = prepare_histograms,
-                                          .keys = {"from", "to"}};
+extern const FigureType kImpactMaps{
+    .name = "impact-maps",
+    .title = "Restitution of the impacts, successive collisions, and speeds at impact over the phase of the cam",
+    .refusal = needs_cam,
+    .maker = prepare_maps,
+    .keys = {"from", "to"}};
+extern const FigureType kImpactHistograms{
+    .name = "impact-histograms",
+    .title = "Histograms of the approach speed and of the phase of the cam at impacts",
+    .refusal = needs_cam,
+    .maker = prepare_histograms,
+    .keys = {"from", "to"}};
 
 }  // namespace beamcam::scenes

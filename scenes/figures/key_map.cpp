@@ -17,7 +17,7 @@ using sim::AttractorClass;
 
 namespace {
 
-// For periods from one to five; beyond these the last.
+// Colours of the periods one to five; longer periods have the last one.
 constexpr std::uint32_t kPeriodColors[] = {0x08306B, 0x2171B5, 0x6BAED6, 0x9ECAE1, 0xC6DBEF};
 // The entry of a cell: periodic motions by their period, others by their class.
 figure::Swatch map_entry(const output::StoredPoint& p, Lang lang) {

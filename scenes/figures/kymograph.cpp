@@ -23,7 +23,7 @@ std::size_t samples_per_column(const sim::Problem& problem, double column) {
                           : static_cast<std::size_t>(std::clamp(std::ceil(16 * periods), 2.0, double(kMostSamples)));
 }
 
-// Of each column and station: the deflection, or its largest magnitude of several instants.
+// The value of each column and station: the deflection, or its largest magnitude of several instants.
 std::vector<double> deflections(const std::vector<sim::Pose>& poses, std::size_t samples) {
     std::vector<double> out(kColumns * kStations, 0);
     for (std::size_t row = 0; row < poses.size(); ++row) {
@@ -61,11 +61,11 @@ Panel kymograph_panel(const std::vector<double>& v, const ShownPoses& shown, dou
             .legend = Legend::none};
 }
 
-FigureDrawing prepare_kymograph(const Scene& scene, const FigureOutput& how, Studies& studies) {
+FigureDrawing prepare_kymograph(const Scene& scene, const FigureOutput& how, MotionRequests& requests) {
     const double column = (how.series.to.value_or(scene.end_time) - how.series.from) / kColumns;
     const std::size_t samples = samples_per_column(scene.problem, column);
-    const ShownPoses shown = request_poses(scene, how, kColumns * static_cast<int>(samples), kStations, studies);
-    return figure_of_motion(shown.study, [=](const Subject& subject, const sim::Result& result) -> Figure {
+    const ShownPoses shown = request_poses(scene, how, kColumns * static_cast<int>(samples), kStations, requests);
+    return figure_of_motion(shown.motion, [=](const Subject& subject, const sim::Result& result) -> Figure {
         const auto& [problem, units, lang, end] = subject;
         Panel panel =
             kymograph_panel(deflections(result.poses[shown.poses], samples), shown, problem.beam.length, samples > 1);
@@ -77,10 +77,11 @@ FigureDrawing prepare_kymograph(const Scene& scene, const FigureOutput& how, Stu
 
 }  // namespace
 
-extern const FigureType kKymograph{.name = "kymograph",
-                                   .title = "Deflection from the tangent at the root, along the beam and in time; squares: impacts",
-                                   .refusal = needs_bending,
-                                   .maker = prepare_kymograph,
-                                   .keys = {"from", "to"}};
+extern const FigureType kKymograph{
+    .name = "kymograph",
+    .title = "Deflection from the tangent at the root, along the beam and in time; squares: impacts",
+    .refusal = needs_bending,
+    .maker = prepare_kymograph,
+    .keys = {"from", "to"}};
 
 }  // namespace beamcam::scenes

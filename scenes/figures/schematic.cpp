@@ -130,7 +130,7 @@ class Drawing : private Sketch {
     }
 
     bool is_flexible() const { return p_.beam.model != sim::ModelKind::rigid; }
-    // Of the beam's length, from its root to the cam.
+    // The share of the beam's length from its root to the cam.
     double support_share() const {
         const auto tangent = resting_tangent(p_);
         if (!tangent || theta_ != tangent->angle) return 0;
@@ -222,7 +222,7 @@ class Drawing : private Sketch {
 
 constexpr double kAspect = 0.98;
 
-// Of the page's shorter side the magnified disc's radius is about an eighth.
+// The magnified disc's radius is about an eighth of the page's shorter side.
 double letter_of(const FigureOutput& how) {
     const render::figure::Column& column = *render::figure::column_named(how.column);
     Figure figure;
@@ -233,8 +233,8 @@ double letter_of(const FigureOutput& how) {
     return page.style.letters / (0.124 * render::figure::points(std::min(page.width, page.height)));
 }
 
-FigureDrawing prepare_schematic(const Scene&, const FigureOutput& how, Studies&) {
-    return [letter = letter_of(how)](const Subject& subject, const Results&) -> Figure {
+FigureDrawing prepare_schematic(const Scene&, const FigureOutput& how, MotionRequests&) {
+    return [letter = letter_of(how)](const Subject& subject, const MotionResults&) -> Figure {
         Figure figure{.panels = {{.shapes = Drawing(subject.problem, letter).shapes()}}, .aspect = kAspect};
         add_caption(figure, std::vector{subject.problem});
         return figure;
@@ -243,7 +243,7 @@ FigureDrawing prepare_schematic(const Scene&, const FigureOutput& how, Studies&)
 
 }  // namespace
 
-extern const FigureType kSchematic{
-    "schematic", "The system and its symbols, deflection exaggerated", no_refusal, prepare_schematic};
+extern const FigureType kSchematic{"schematic", "The system and its symbols, deflection exaggerated", no_refusal,
+                                   prepare_schematic};
 
 }  // namespace beamcam::scenes

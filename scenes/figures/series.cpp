@@ -25,7 +25,7 @@ void share_ordinates(Figure& figure) {
     }
 }
 
-Figure series_figure(const SeriesPlan& plan, const Results& results) {
+Figure series_figure(const SeriesPlan& plan, const MotionResults& results) {
     std::vector<Panel> panels;
     for (const PlannedPanel& planned : plan.panels)
         std::ranges::move(series_panels(plan, planned, results), std::back_inserter(panels));
@@ -35,7 +35,7 @@ Figure series_figure(const SeriesPlan& plan, const Results& results) {
     if (plan.keys.apart) share_ordinates(figure);
     figure.aspect = 0.2 + 0.36 * static_cast<double>(figure.panels.size());
     Runs runs;
-    for (const SeriesMotion& motion : plan.motions) runs.emplace_back(&motion.problem, results[motion.study]);
+    for (const SeriesMotion& motion : plan.motions) runs.emplace_back(&motion.problem, results[motion.request]);
     add_caption(figure, runs);
     return figure;
 }
@@ -49,13 +49,13 @@ void keep_within_limits(SeriesPlan& plan) {
     if (from < end) plan.keys.from = from, plan.end = end;
 }
 
-FigureDrawing prepare_series(const Scene& scene, const FigureOutput& how, Studies& studies) {
+FigureDrawing prepare_series(const Scene& scene, const FigureOutput& how, MotionRequests& requests) {
     SeriesKeys keys = how.series;
     if (keys.panels.empty()) keys.panels = {{.channels = {{ChannelKind::theta, 0}}}};
     SeriesPlan plan{keys, how.lang, keys.to.value_or(scene.end_time), SeriesAbscissa(keys, how.lang), scene.units};
     keep_within_limits(plan);
-    complete(plan, scene, studies);
-    return [plan](const Subject&, const Results& results) { return series_figure(plan, results); };
+    complete(plan, scene, requests);
+    return [plan](const Subject&, const MotionResults& results) { return series_figure(plan, results); };
 }
 
 }  // namespace
@@ -65,6 +65,6 @@ extern const FigureType kSeries{.name = "series",
                                 .refusal = no_refusal,
                                 .maker = prepare_series,
                                 .keys = {"channels", "panels", "x", "x_low", "x_high", "from", "to", "impacts", "notes",
-                                         "compare", "comparison", "residuals"}};
+                                         "compare", "comparison", "residuals", "horizon"}};
 
 }  // namespace beamcam::scenes

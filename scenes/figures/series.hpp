@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "render/plot/figure.hpp"
+#include "scenes/figures/motion_requests.hpp"
 #include "scenes/figures/series_data.hpp"
-#include "scenes/figures/studies.hpp"
 #include "scenes/scene/scene.hpp"
 #include "sim/run/simulate.hpp"
 
@@ -23,9 +23,9 @@ class SeriesAbscissa {
     bool is_frequency() const { return against_ == "frequency"; }
     bool is_time() const { return against_ == "t" || is_turns(); }  // or turns, which grow with it
 
-    // Of each row of a table whose last channel is drawn, in SI units or turns.
+    // The abscissa of each row of a table whose last channel is drawn, in SI units or turns.
     std::vector<double> of(const sim::Table& table, const sim::Problem& problem) const;
-    // Of each row of data; nothing if they do not hold it. The angle of the cam follows from its law.
+    // The abscissa of each row of data; nothing if they do not hold it. The angle of the cam follows from its law.
     std::optional<std::vector<double>> of(const Measurement& data, const sim::Problem& problem) const;
     // The factor from seconds to the axis: 1, or the cam's turns per second.
     double per_second(const sim::Problem& problem) const;
@@ -51,12 +51,12 @@ class SeriesAbscissa {
 struct SeriesMotion {
     std::string label;
     sim::Problem problem;
-    std::size_t study = 0;
+    std::size_t request = 0;
 };
 
 struct SeriesCurve {
     sim::Channel channel;
-    std::size_t motion = 0, table = 0;  // the table: of the motion's study
+    std::size_t motion = 0, table = 0;  // the table: of the request of the motion
     std::optional<SeriesSum> sum = {};  // instead of the channel
 };
 
@@ -82,24 +82,24 @@ struct SeriesPlan {
     }
     const SeriesMotion& motion_with_data() const { return motions[measured_motion]; }
     // The rows of a curve, or its amplitudes by frequency; its values come last.
-    sim::Table rows(const SeriesCurve& curve, const Results& results) const;
-    // Where curves are lighter; nowhere in a spectrum, which is of the whole interval.
-    std::vector<Lost> lost(const sim::Result& result) const;
+    sim::Table rows(const SeriesCurve& curve, const MotionResults& results) const;
+    // The intervals in which curves are paler; a spectrum, which is of the whole interval, has none.
+    std::vector<UnreliableInterval> unreliable(const sim::Result& result) const;
 };
 
 // Adds motions and panels to a plan.
-void complete(SeriesPlan& plan, const Scene& scene, Studies& studies);
+void complete(SeriesPlan& plan, const Scene& scene, MotionRequests& requests);
 
 // ---- the figure ---------------------------------------------------------------------------------------
 
 // A planned panel; with `keys.residuals` also a panel of the differences of the data.
 std::vector<render::figure::Panel> series_panels(const SeriesPlan& plan, const PlannedPanel& planned,
-                                                 const Results& results);
+                                                 const MotionResults& results);
 
 // Vertical lines of the panel at instants, where x is time or grows with it. Throws PictureError for a note at an event
 // that the motion does not have, or has outside of the interval.
 std::vector<render::figure::Rule> series_rules(const SeriesPlan& plan, const PlannedPanel& panel,
-                                               const Results& results);
+                                               const MotionResults& results);
 
 // Whether lines mark collisions because the impacts between these instants are too many to distinguish.
 bool marks_collisions(const sim::Result& result, double from, double to);

@@ -15,21 +15,22 @@ namespace beamcam::scenes {
 
 // ---- the intervals in which θ is not reproducible -----------------------------------------------------
 
-std::vector<Lost> unreliable(const sim::Result& result, double end) {
-    std::vector<Lost> out;
+std::vector<UnreliableInterval> unreliable_intervals(const sim::Result& result, double end) {
+    std::vector<UnreliableInterval> out;
     for (const sim::Interval& lost : result.not_reproducible)
         if (lost.from < end) out.push_back({lost.from, std::min(lost.to.value_or(end), end)});
     return out;
 }
 
 std::vector<Series> by_reliability(const Series& whole, const std::vector<double>& times,
-                                   const std::vector<Lost>& intervals) {
+                                   const std::vector<UnreliableInterval>& intervals) {
     std::vector<Series> parts{whole, whole};
     for (Series& part : parts) part.x.clear(), part.y.clear(), part.t.clear();
     parts[0].faded = true;
     std::optional<bool> before;
     for (std::size_t i = 0; i < whole.x.size(); ++i) {
-        const bool unsure = std::ranges::any_of(intervals, [&](const Lost& v) { return v.holds(times[i]); });
+        const bool unsure =
+            std::ranges::any_of(intervals, [&](const UnreliableInterval& v) { return v.holds(times[i]); });
         Series& part = parts[unsure ? 0 : 1];
         if (before && *before != unsure) {
             if (!part.x.empty()) part.add(whole.x[i - 1], std::nan("")), part.t.push_back(times[i - 1]);
@@ -45,12 +46,12 @@ std::vector<Series> by_reliability(const Series& whole, const std::vector<double
 // ---- measured or foreign data ---------------------------------------------------------------------------
 
 std::vector<Measured> measured(const Scene& scene, const std::vector<sim::Channel>& channels, double from, double to,
-                               std::size_t study, Studies& studies) {
+                               std::size_t motion, MotionRequests& requests) {
     std::vector<Measured> out;
     for (const Measurement& each : scene.data) {
         Measurement data = each.of(channels).within(from, to);
         if (data.columns.empty() || data.times.empty()) continue;
-        const std::size_t table = studies.add_table(study, data.request());
+        const std::size_t table = requests.add_table(motion, data.request());
         out.push_back({std::move(data), table});
     }
     return out;
@@ -106,7 +107,7 @@ bool equally_spaced(const std::vector<double>& times) {
 }
 
 std::vector<double> spectrum_instants(const sim::Problem& problem, double from, double to) {
-    // Without the last instant, which begins the next period of the transform.
+    // The last instant is left out: it begins the next period of the transform.
     const int count = samples(problem, to - from);
     std::vector<double> times = instants({from, to, count + 1});
     times.pop_back();

@@ -39,7 +39,7 @@ struct Side {
 
 class SeriesPanelMaker {
   public:
-    SeriesPanelMaker(const SeriesPlan& plan, const PlannedPanel& planned, const Results& results)
+    SeriesPanelMaker(const SeriesPlan& plan, const PlannedPanel& planned, const MotionResults& results)
         : plan_(plan),
           keys_(plan.keys.panels[planned.number]),
           planned_(planned),
@@ -116,7 +116,7 @@ class SeriesPanelMaker {
     }
     // Below it the change of the energy balance is rounding, which differs between machines.
     double rounding(const SeriesCurve& curve) const {
-        return 1e-12 * results_[plan_.motions[curve.motion].study]->energy_scale;
+        return 1e-12 * results_[plan_.motions[curve.motion].request]->energy_scale;
     }
     double largest_of_all(bool right) const {
         double most = 0;
@@ -171,7 +171,7 @@ class SeriesPanelMaker {
                            .look = curves_++,
                            .right = side.right,
                            .weight = kCurveWeight};
-        std::vector<Series> parts = by_reliability(whole, rows.values[0], plan_.lost(*results_[motion.study]));
+        std::vector<Series> parts = by_reliability(whole, rows.values[0], plan_.unreliable(*results_[motion.request]));
         if (parts.size() > 1) parts.front().label.clear();
         for (Series& part : parts) {
             plan_.abscissa.fold(part);
@@ -215,12 +215,12 @@ class SeriesPanelMaker {
     }
 
     void add_difference(const Measured& measured, Channel channel, const Series& points) {
-        const sim::Result& result = *results_[plan_.motion_with_data().study];
+        const sim::Result& result = *results_[plan_.motion_with_data().request];
         const std::vector<double>& computed = column(result.tables[measured.table], channel.kind);
         std::vector<double> difference = *measured.data.find(channel);
         for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= computed[i];
         const Series whole = measured_series(measured.data, points.x, std::move(difference), points.look);
-        std::ranges::move(by_reliability(whole, measured.data.times, plan_.lost(result)),
+        std::ranges::move(by_reliability(whole, measured.data.times, plan_.unreliable(result)),
                           std::back_inserter(differences_.series));
     }
 
@@ -245,7 +245,7 @@ class SeriesPanelMaker {
     const SeriesPlan& plan_;
     const SeriesPanel& keys_;
     const PlannedPanel& planned_;
-    const Results& results_;
+    const MotionResults& results_;
     const SeriesMotion& first_;  // of the motions shown
 
     Panel panel_, differences_;
@@ -255,7 +255,7 @@ class SeriesPanelMaker {
 
 }  // namespace
 
-std::vector<Panel> series_panels(const SeriesPlan& plan, const PlannedPanel& planned, const Results& results) {
+std::vector<Panel> series_panels(const SeriesPlan& plan, const PlannedPanel& planned, const MotionResults& results) {
     return SeriesPanelMaker(plan, planned, results).make();
 }
 

@@ -36,20 +36,20 @@ std::vector<sim::Channel> channels_of(const SeriesPlan& plan) {
     return all;
 }
 
-// With the rows that `channel` needs, at least `rows`, and the channels `also` at the same rows.
+// Requests a table with the rows that `channel` needs, at least `rows`, and the channels `also` at the same rows.
 std::size_t table_of(const SeriesPlan& plan, sim::Channel channel, const std::vector<sim::Channel>& also, int rows,
-                     const SeriesMotion& motion, Studies& studies) {
+                     const SeriesMotion& motion, MotionRequests& requests) {
     if (!plan.abscissa.is_frequency())
-        return studies.curve(motion.study, {plan.keys.from, plan.end, rows},
-                             plan.abscissa.channel().value_or(sim::Channel{}), channel, also,
-                             plan.abscissa.drawn(motion.problem));
+        return requests.curve(motion.request, {plan.keys.from, plan.end, rows},
+                              plan.abscissa.channel().value_or(sim::Channel{}), channel, also,
+                              plan.abscissa.drawn(motion.problem));
     sim::TableRequest table{spectrum_instants(motion.problem, plan.keys.from, plan.end), {sim::Channel{}, channel}};
     table.channels.insert(table.channels.end(), also.begin(), also.end());
-    return studies.add_table(motion.study, std::move(table));
+    return requests.add_table(motion.request, std::move(table));
 }
 
 // One table for all sums of a panel, with the rows that the first of their channels needs.
-void add_sums(const SeriesPlan& plan, const std::vector<SeriesSum>& sums, std::size_t motion, Studies& studies,
+void add_sums(const SeriesPlan& plan, const std::vector<SeriesSum>& sums, std::size_t motion, MotionRequests& requests,
               std::vector<SeriesCurve>& curves) {
     constexpr int kSumRows = 8001;  // to begin with: energies vary as fast as the beam vibrates
     std::vector<sim::Channel> all;
@@ -59,26 +59,27 @@ void add_sums(const SeriesPlan& plan, const std::vector<SeriesSum>& sums, std::s
                 if (std::ranges::find(all, channel) == all.end()) all.push_back(channel);
     const sim::Channel first = all.front();
     all.erase(all.begin());
-    const std::size_t table = table_of(plan, first, all, kSumRows, plan.motions[motion], studies);
+    const std::size_t table = table_of(plan, first, all, kSumRows, plan.motions[motion], requests);
     for (const SeriesSum& sum : sums) curves.push_back({first, motion, table, sum});
 }
 
-PlannedPanel planned(const SeriesPlan& plan, std::size_t number, std::vector<std::size_t> motions, Studies& studies) {
+PlannedPanel planned(const SeriesPlan& plan, std::size_t number, std::vector<std::size_t> motions,
+                     MotionRequests& requests) {
     PlannedPanel out{number, std::move(motions), {}, {}};
     const SeriesPanel& keys = plan.keys.panels[number];
     const auto add = [&](const std::vector<sim::Channel>& channels, std::vector<SeriesCurve>& curves) {
         for (const sim::Channel& channel : channels)
             for (const std::size_t motion : out.motions)
-                curves.push_back({channel, motion, table_of(plan, channel, {}, kRows, plan.motions[motion], studies)});
+                curves.push_back({channel, motion, table_of(plan, channel, {}, kRows, plan.motions[motion], requests)});
     };
     if (keys.sums.empty()) add(keys.channels, out.left);
     for (const std::size_t motion : out.motions)
-        if (!keys.sums.empty()) add_sums(plan, keys.sums, motion, studies, out.left);
+        if (!keys.sums.empty()) add_sums(plan, keys.sums, motion, requests, out.left);
     add(keys.right, out.right);
     return out;
 }
 
-// After the first `kept` columns, the abscissae of the rows.
+// The sum stands after the first `kept` columns, the abscissae of the rows.
 sim::Table summed(const sim::Table& rows, const SeriesSum& sum, std::ptrdiff_t kept) {
     sim::Table out{{rows.channels.begin(), rows.channels.begin() + kept + 1},
                    {rows.values.begin(), rows.values.begin() + kept}};
@@ -97,32 +98,32 @@ sim::Table summed(const sim::Table& rows, const SeriesSum& sum, std::ptrdiff_t k
 
 }  // namespace
 
-sim::Table SeriesPlan::rows(const SeriesCurve& curve, const Results& results) const {
-    const sim::Table& table = results[motions[curve.motion].study]->tables[curve.table];
+sim::Table SeriesPlan::rows(const SeriesCurve& curve, const MotionResults& results) const {
+    const sim::Table& table = results[motions[curve.motion].request]->tables[curve.table];
     const sim::Table rows = curve.sum ? summed(table, *curve.sum, abscissa.channel() ? 2 : 1) : table;
     return abscissa.is_frequency() ? spectrum_table(rows, keys.x_high) : rows;
 }
 
-std::vector<Lost> SeriesPlan::lost(const sim::Result& result) const {
-    return abscissa.is_frequency() ? std::vector<Lost>{} : unreliable(result, end);
+std::vector<UnreliableInterval> SeriesPlan::unreliable(const sim::Result& result) const {
+    return abscissa.is_frequency() ? std::vector<UnreliableInterval>{} : unreliable_intervals(result, end);
 }
 
-void complete(SeriesPlan& plan, const Scene& scene, Studies& studies) {
+void complete(SeriesPlan& plan, const Scene& scene, MotionRequests& requests) {
     const SeriesKeys& keys = plan.keys;
     plan.motions = motions_of(scene, keys);
     for (SeriesMotion& motion : plan.motions) {
-        motion.study = studies.of(motion.problem, plan.end);
-        studies.horizon(motion.study);
+        motion.request = requests.motion(motion.problem, plan.end);
+        if (keys.horizon && !plan.abscissa.is_frequency()) requests.horizon(motion.request);
         if (std::ranges::any_of(keys.notes, [](const auto& n) { return n.at.kind == Instant::Kind::apex; }))
-            studies.apexes(motion.study);
+            requests.apexes(motion.request);
     }
     plan.measured_motion = motion_measured(scene, plan.motions);
-    plan.measured = measured(scene, channels_of(plan), keys.from, plan.end, plan.motion_with_data().study, studies);
+    plan.measured = measured(scene, channels_of(plan), keys.from, plan.end, plan.motion_with_data().request, requests);
     std::vector<std::size_t> all(plan.motions.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     for (std::size_t group = 0; group < (keys.apart ? all.size() : 1); ++group)
         for (std::size_t number = 0; number < keys.panels.size(); ++number)
-            plan.panels.push_back(planned(plan, number, keys.apart ? std::vector{group} : all, studies));
+            plan.panels.push_back(planned(plan, number, keys.apart ? std::vector{group} : all, requests));
 }
 
 }  // namespace beamcam::scenes

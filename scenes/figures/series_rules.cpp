@@ -32,8 +32,8 @@ Rules impact_rules(const sim::Result& result, double from, double to) {
 // The ends of the intervals in which θ is not reproducible.
 Rules horizon_rules(const sim::Result& result, double from, double to) {
     Rules rules;
-    for (const Lost& lost : unreliable(result, to))
-        for (const double t : {lost.from, lost.to})
+    for (const UnreliableInterval& interval : unreliable_intervals(result, to))
+        for (const double t : {interval.from, interval.to})
             if (t > from && t < to) rules.push_back({.at = t, .vertical = true});
     return rules;
 }
@@ -57,11 +57,11 @@ bool marks_collisions(const sim::Result& result, double from, double to) {
     return starts_of(result.impacts, from, to).size() > kMostRules;
 }
 
-Rules series_rules(const SeriesPlan& plan, const PlannedPanel& panel, const Results& results) {
+Rules series_rules(const SeriesPlan& plan, const PlannedPanel& panel, const MotionResults& results) {
     Rules all;
     if (!plan.abscissa.is_time()) return all;
     const SeriesMotion& first = plan.motions[panel.motions.front()];
-    const sim::Result& result = *results[first.study];
+    const sim::Result& result = *results[first.request];
     const double from = plan.keys.from, to = plan.end;
     if (plan.keys.impacts)
         all = impact_rules(result, from, to);

@@ -27,7 +27,7 @@ struct Spectrogram {
     std::size_t windows() const { return amplitude.size() / lines; }
 };
 
-// Without the slope of the straight line that fits best, which would spread over all frequencies; the spectrum removes
+// Removes the slope of the straight line that fits best, which would spread over all frequencies; the spectrum removes
 // the mean.
 std::vector<double> without_trend(std::vector<double> v) {
     const double middle = 0.5 * (static_cast<double>(v.size()) - 1);
@@ -121,7 +121,7 @@ Panel spectrogram_panel(sim::Channel channel, const Spectrogram& s, double most,
             .name = name(channel)};
 }
 
-FigureDrawing prepare_spectrogram(const Scene& scene, const FigureOutput& how, Studies& studies) {
+FigureDrawing prepare_spectrogram(const Scene& scene, const FigureOutput& how, MotionRequests& requests) {
     const SeriesKeys& keys = how.series;
     const sim::Channel channel = channel_of(scene, keys);
     const double from = keys.from, to = keys.to.value_or(scene.end_time);
@@ -129,12 +129,12 @@ FigureDrawing prepare_spectrogram(const Scene& scene, const FigureOutput& how, S
     if (!(window <= (to - from) / 2))
         throw render::PictureError(fmt::format(
             "figure spectrogram: windows of {:g} s do not move along {:g} s; at most half of it", window, to - from));
-    const std::size_t study = studies.of(scene.problem, to);
+    const std::size_t motion = requests.motion(scene.problem, to);
     const std::size_t table =
-        studies.add_table(study, {spectrum_instants(scene.problem, from, to), {sim::Channel{}, channel}});
+        requests.add_table(motion, {spectrum_instants(scene.problem, from, to), {sim::Channel{}, channel}});
     const std::string unit = sim::unit(channel, scene.problem);
     return figure_of_motion(
-        study, [=, highest = keys.highest](const Subject& subject, const sim::Result& result) -> Figure {
+        motion, [=, highest = keys.highest](const Subject& subject, const sim::Result& result) -> Figure {
             const sim::Table& rows = result.tables[table];
             const double rate = 1 / (rows.values[0][1] - rows.values[0][0]);
             Spectrogram s = spectrogram(rows, window, highest.value_or(0.1875 * rate));

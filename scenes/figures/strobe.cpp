@@ -140,9 +140,9 @@ void drop_rounding(sim::Pose& pose, const sim::Problem& problem, const sim::Resu
     if (pose.nearest && pose.nearest->force < kForceRounding * largest) pose.nearest->force = 0;
 }
 
-FigureDrawing prepare_strobe(const Scene& scene, const FigureOutput& how, Studies& studies) {
+FigureDrawing prepare_strobe(const Scene& scene, const FigureOutput& how, MotionRequests& requests) {
     const bool one = how.series.to && *how.series.to == how.series.from;
-    const ShownPoses shown = request_poses(scene, how, one ? 2 : kShownPoses, kPoseStations, studies);
+    const ShownPoses shown = request_poses(scene, how, one ? 2 : kShownPoses, kPoseStations, requests);
     const auto draw = [=](const Subject& subject, const sim::Result& result) -> Figure {
         std::vector<sim::Pose> poses = result.poses[shown.poses];
         if (one) poses.resize(1);
@@ -156,15 +156,16 @@ FigureDrawing prepare_strobe(const Scene& scene, const FigureOutput& how, Studie
                 .panels = {std::move(panel)},
                 .aspect = aspect};
     };
-    return figure_of_motion(shown.study, draw);
+    return figure_of_motion(shown.motion, draw);
 }
 
 }  // namespace
 
-extern const FigureType kStrobe{.name = "strobe",
-                                .title = "The mechanism at equally spaced instants, from pale to dark, deflection to scale",
-                                .refusal = no_refusal,
-                                .maker = prepare_strobe,
-                                .keys = {"from", "to", "at"}};
+extern const FigureType kStrobe{
+    .name = "strobe",
+    .title = "The mechanism at equally spaced instants, from pale to dark, deflection to scale",
+    .refusal = no_refusal,
+    .maker = prepare_strobe,
+    .keys = {"from", "to", "at"}};
 
 }  // namespace beamcam::scenes

@@ -148,25 +148,19 @@ extern const FigureType kBifurcation{.name = "bifurcation",
                                      .refusal = needs_one_key,
                                      .draw = bifurcation,
                                      .keys = {"value"}};
-extern const FigureType kBasins{.name = "basins",
-                                .title = "Basins of attraction",
-                                .refusal = needs_two_starts,
-                                .draw = key_map,
-                                .keys = {"value"}};
-extern const FigureType kMap{.name = "map",
-                             .title = "Map of two keys",
-                             .refusal = needs_two_keys,
-                             .draw = key_map,
-                             .keys = {"value"}};
+extern const FigureType kBasins{
+    .name = "basins", .title = "Basins of attraction", .refusal = needs_two_starts, .draw = key_map, .keys = {"value"}};
+extern const FigureType kMap{
+    .name = "map", .title = "Map of two keys", .refusal = needs_two_keys, .draw = key_map, .keys = {"value"}};
 extern const FigureType kPoincare{
     .name = "poincare", .title = "Poincaré section", .refusal = needs_sweep, .draw = draw_poincare};
 extern const FigureType kImpactMap{
     .name = "impact-map", .title = "Map of impacts", .refusal = needs_impacts, .draw = draw_impact_map};
 
 FigureDrawing swept_figure(const FigureType& type, const FigureOutput& how) {
-    return [&type, how](const Subject&, const Results& results) {
-        if (!results.swept) throw std::logic_error("a figure of a sweep without its points");
-        const SweptPoints points(*results.swept, how.lang);
+    return [&type, how](const Subject&, const MotionResults& results) {
+        if (!results.sweep) throw std::logic_error("a figure of a sweep without its points");
+        const SweptPoints points(*results.sweep, how.lang);
         figure::Figure out = type.draw(points, how);
         out.title = fmt::format("{} over {}", type.title, render::escaped(points.axis(0).name));
         add_caption(out, problems_at_ends(points));

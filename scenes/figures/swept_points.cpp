@@ -39,7 +39,7 @@ constexpr std::string_view kApproach = "v_n_before";
 
 }  // namespace
 
-SweptPoints::SweptPoints(const Swept& swept, Lang how)
+SweptPoints::SweptPoints(const SweepResult& swept, Lang how)
     : scene(*swept.scene), data(*swept.data), lang(how), starts_(starts_of(scene.sweep->seeds)) {
     for (std::size_t i = 0; i < data.axes.size(); ++i) {
         output::SweepAxis axis = data.axes[i];

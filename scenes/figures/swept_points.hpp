@@ -9,7 +9,7 @@
 #include "render/plot/figure.hpp"
 #include "scenes/figures/axis_labels.hpp"
 #include "scenes/figures/caption.hpp"
-#include "scenes/figures/studies.hpp"
+#include "scenes/figures/motion_requests.hpp"
 #include "scenes/scene/scene.hpp"
 #include "sim/sweep/attractor.hpp"
 
@@ -17,7 +17,7 @@ namespace beamcam::scenes {
 
 class SweptPoints {
   public:
-    SweptPoints(const Swept& swept, Lang how);
+    SweptPoints(const SweepResult& swept, Lang how);
     // The axes as diagrams draw them: in the scene's unit of angles and speeds, else with a prefix if it is linear.
     const std::vector<output::SweepAxis>& axes() const { return axes_; }
     const output::SweepAxis& axis(std::size_t i) const { return axes_.at(i); }
@@ -26,7 +26,7 @@ class SweptPoints {
     std::uint64_t seeds() const { return starts_.size(); }
     SeedKind seed(std::uint64_t point) const { return starts_[point % starts_.size()]; }
     render::Scale scale(std::size_t i) const;
-    // Of the samples; throws PictureError.
+    // The index of a column of the samples; throws PictureError.
     std::size_t column(const std::string& name) const;
     bool of_impacts() const { return scene.sweep->sampling.kind == sim::SampleKind::impacts; }
 
@@ -59,7 +59,7 @@ std::string label_of(const output::SweepAxis& axis);
 
 // Edges of cells around the values, half-way between neighbours along the axis.
 std::vector<double> edges_around(std::vector<double> values, render::Scale scale);
-// By index the place of each value in ascending order.
+// The place of each value in ascending order, by its index.
 std::vector<std::size_t> ranks(const std::vector<double>& values);
 
 bool all_empty(const std::vector<render::figure::Cloud>& clouds);

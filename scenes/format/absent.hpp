@@ -17,7 +17,7 @@ std::string absent_command(std::string_view name);
 std::string absent_option(std::string_view name);  // "--frames", or "--frames=0:60"
 std::string absent_ending(std::string_view file);  // of a file name: "a.eps"
 
-// What is not modelled: the words in keys, and the sentence.
+// A part that is not modelled: the words in keys, and the sentence about it.
 struct NotModelled {
     std::vector<std::string> words;
     std::string sentence;

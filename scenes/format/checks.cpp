@@ -15,9 +15,9 @@ namespace beamcam::scenes {
 namespace {
 
 // The position of a key path: its value, or the key of its nearest ancestor in the file. `exact`: it is the value.
-Place place_in_scene(const Node& root, std::string_view path, bool& exact) {
+SourcePosition place_in_scene(const Node& root, std::string_view path, bool& exact) {
     const Node* node = &root;
-    Place place = root.place;
+    SourcePosition place = root.place;
     const std::vector<std::string> names = split(path);
     exact = true;
     for (std::size_t i = 0; i < names.size() && exact; ++i) {
@@ -37,7 +37,7 @@ void check_physics(ObjectReader& r, const sim::Problem& problem) {
     const bool partial = r.diagnostics().any();
     for (const sim::Issue& finding : sim::validate(problem)) {
         bool exact = false;
-        const Place place = place_in_scene(*r.node(), finding.path, exact);
+        const SourcePosition place = place_in_scene(*r.node(), finding.path, exact);
         // Some values could not be read and are defaults now: check only values that the file contains.
         if (partial && (!exact || !finding.fatal || r.diagnostics().failed(finding.path))) continue;
         const bool named = finding.message.starts_with(finding.path);

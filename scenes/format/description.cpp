@@ -165,7 +165,6 @@ class Describer final : public SceneVisitor {
         d.names = items.pattern;
         d.min_size = items.min_size;
     }
-    void constrain_schema(const char* schema) override { common_.constraints.push_back(node_of(schema)); }
     void exclusive(const char* one, const char* other) override { common_.exclusive.emplace_back(one, other); }
 
   private:

@@ -22,7 +22,6 @@ struct DescribedObject {
     std::string meaning;
     std::vector<DescribedKey> keys;
     std::vector<std::pair<std::string, std::string>> exclusive;  // pairs of keys that exclude each other
-    std::vector<Node> constraints;                               // further schema of the object
 };
 
 struct DescribedKey {

@@ -161,8 +161,7 @@ void check_figure(ObjectReader& r, FigureOutput& figure) {
     if (type->takes("window")) check_windows(r, figure);
     if (!r.has("figure") || r.diagnostics().any()) return;  // the next rules need a valid scene
     const Scene& scene = r.context().scene;
-    if (const auto refusal = refusal_of(*type, scene))
-        return r.reject("figure", " = \"{}\": {}", figure.figure, *refusal);
+    if (const auto refusal = type->refusal(scene)) return r.reject("figure", " = \"{}\": {}", figure.figure, *refusal);
     if (type->of_sweep()) r.reject_if("value", problem_with_value(type->name, figure.value, scene));
 }
 

@@ -20,7 +20,7 @@ struct FileColumn {
     std::vector<double> values;
     std::string problem;
 };
-// In SI units if the file states a unit of this dimension. `gaps`: whether cells may be empty.
+// The values are in SI units if the file states a unit of this dimension. `gaps`: whether cells may be empty.
 FileColumn read_file_column(const std::filesystem::path& file, const std::string& column,
                             const sim::Dimension& dimension, bool gaps);
 

@@ -55,8 +55,6 @@ class SceneVisitor : public sim::Visitor {
     virtual void list(const Key& key, const List& list, const char* meaning) = 0;
     virtual void named(const Key& key, const NamedItems& items, const char* meaning) = 0;
     virtual void exclusive(const char* one, const char* other) = 0;
-    // JSON Schema of a rule between the keys visited so far; `check` applies the same rule.
-    virtual void constrain_schema(const char*) {}
     virtual void problem(sim::Problem& problem) { visit(*this, problem); }
     // A rule between the keys visited so far, or between them and the scene. Only the reader applies it.
     virtual void check(const std::function<void(ObjectReader&)>&) {}

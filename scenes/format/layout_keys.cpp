@@ -93,17 +93,16 @@ ValueFormat window_format(PanelSpec& panel) {
         read, write};
 }
 
-// The names of the panels for which `holds` is true, each between `quotes`.
-std::string names_of(const char* quotes, bool (*holds)(const PanelType&)) {
+// "mechanism, strip, …"
+std::string names_of_panels() {
     std::vector<std::string> names;
-    for (const PanelType& type : render::panel_types())
-        if (holds(type)) names.push_back(fmt::format("{0}{1}{0}", quotes, type.name));
+    for (const PanelType& type : render::panel_types()) names.emplace_back(type.name);
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
 void visit_panel(SceneVisitor& v, PanelSpec& panel) {
     v.value(sim::required("panel", "\"mechanism\""), panel_format(panel),
-            (names_of("", [](const PanelType&) { return true; }) + ", or a channel.").c_str());
+            (names_of_panels() + ", or a channel.").c_str());
     v.value("channels", strip_channels_format(panel), "Of a strip: its curves, all of one unit.");
     v.check([&panel](ObjectReader& r) {
         if (panel.kind == PanelKind::strip && r.has("panel") && !r.has("channels") && panel.channels.empty())
@@ -112,18 +111,6 @@ void visit_panel(SceneVisitor& v, PanelSpec& panel) {
     v.value("window", window_format(panel),
             "Of a strip or the energies: length of the time axis; by default all of the time. Of a strip also "
             "\"collision\": one collision at a time.");
-    const std::string without_window = names_of("\"", [](const PanelType&t) { return !t.takes_window; }),
-                      without_collisions = names_of("\"", [](const PanelType&t) { return !t.takes_collisions; });
-    v.constrain_schema((R"({"allOf": [
-        {"if": {"properties": {"panel": {"const": "strip"}}},
-         "then": {"required": ["channels"]}, "else": {"properties": {"channels": false}}},
-        {"if": {"properties": {"panel": {"enum": [)" +
-                        without_window + R"(]}}},
-         "then": {"properties": {"window": false}}},
-        {"if": {"properties": {"panel": {"enum": [)" +
-                        without_collisions + R"(]}}},
-         "then": {"properties": {"window": {"not": {"const": "collision"}}}}}]})")
-                           .c_str());
     int motion = panel.member + 1;
     v.integer(sim::written_if(motion > 1, "motion"), motion, 1, static_cast<int>(kMostCompared),
               "Number of the compared motion, counted from 1.");

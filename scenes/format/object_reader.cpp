@@ -17,7 +17,7 @@ namespace beamcam::scenes {
 
 using sim::Alternative, sim::Range, sim::Unit;
 
-void Diagnostics::error(const Place& place, const std::string& path, std::string text) {
+void Diagnostics::error(const SourcePosition& place, const std::string& path, std::string text) {
     failed_.insert(path);
     if (errors_.emplace(place, text).second) messages_.push_back({place, std::move(text), true});
 }

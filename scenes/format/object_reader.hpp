@@ -26,8 +26,10 @@ std::string as_written(const Node& node);
 class Diagnostics {
   public:
     // An error that is known already, as that of mechanics that several motions share, is not repeated.
-    void error(const Place& place, const std::string& path, std::string text);
-    void warning(const Place& place, std::string text) { messages_.push_back({place, std::move(text), false}); }
+    void error(const SourcePosition& place, const std::string& path, std::string text);
+    void warning(const SourcePosition& place, std::string text) {
+        messages_.push_back({place, std::move(text), false});
+    }
     void add(Message message) { messages_.push_back(std::move(message)); }
     // True if this key, or a key inside it, has an error.
     bool failed(const std::string& path) const {
@@ -40,7 +42,7 @@ class Diagnostics {
 
   private:
     std::vector<Message> messages_;
-    std::set<std::pair<Place, std::string>> errors_;  // among the messages
+    std::set<std::pair<SourcePosition, std::string>> errors_;  // among the messages
     std::set<std::string> failed_;
 };
 
@@ -50,7 +52,7 @@ struct OtherScene {
     std::string problem;
 };
 
-// What the keys of outputs are checked against: the scene as far as it has been read, its tree, its file, and the
+// The keys of outputs are checked against this: the scene as far as it has been read, its tree, its file, and the
 // files with which it is compared, by path.
 struct SceneContext {
     const Scene& scene;

@@ -122,7 +122,7 @@ std::optional<std::vector<double>> ObjectReader::column_value(const Node& node, 
     return std::nullopt;
 }
 
-// For a quantity of the dimension `given` in place of `unit`.
+// The message about a quantity of the dimension `given` in place of `unit`.
 std::string ObjectReader::wrong_dimension(const Node& node, std::string_view key, const std::string& unit,
                                           const sim::Dimension& given) const {
     if (same(given, dimension::kNone)) {

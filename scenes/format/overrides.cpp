@@ -32,7 +32,7 @@ bool parse_value(std::string_view text, Node& value, std::string& problem) {
 
 }  // namespace
 
-void move_to(Node& node, Place place) {
+void move_to(Node& node, SourcePosition place) {
     node.place = place;
     for (Node& item : node.items) move_to(item, place);
     for (Member& member : node.members) {
@@ -50,7 +50,7 @@ std::string problem_with_override(const std::string& text) {
 }
 
 void apply_override(Node& root, const std::string& text, std::size_t source, std::vector<Message>& messages) {
-    const Place place{source, 0};
+    const SourcePosition place{source, 0};
     const auto error = [&](std::string reason) { messages.push_back({place, std::move(reason), true}); };
 
     if (std::string problem = problem_with_override(text); !problem.empty()) return error(std::move(problem));
@@ -63,7 +63,7 @@ void apply_override(Node& root, const std::string& text, std::size_t source, std
 }
 
 void set_value(Node& root, std::string_view path, Node value, std::vector<Message>& messages) {
-    const Place place = value.place;
+    const SourcePosition place = value.place;
     const auto error = [&](std::string text) { messages.push_back({place, std::move(text), true}); };
     const std::vector<std::string> keys = split(path);
     if (std::ranges::find(keys, "") != keys.end()) return error("the path contains an empty key; write key.path=value");

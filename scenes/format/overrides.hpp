@@ -20,7 +20,7 @@ void apply_override(Node& root, const std::string& text, std::size_t source, std
 void set_value(Node& root, std::string_view path, Node value, std::vector<Message>& messages);
 
 // Gives every key and value of the tree this position.
-void move_to(Node& node, Place place);
+void move_to(Node& node, SourcePosition place);
 
 // The source of an override, named `--set beam.modes=3` in messages.
 Source override_source(const std::string& text);

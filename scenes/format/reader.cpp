@@ -18,7 +18,7 @@
 namespace beamcam::scenes {
 namespace {
 
-// Where in an output a key belongs that was found beside the outputs; empty: no output has it.
+// The place in an output for a key that was found beside the outputs; empty: no output has it.
 std::string place_in_outputs(const std::string& key) {
     const auto outputs = std::ranges::find(scene_format().keys, "outputs", &DescribedKey::name);
     for (const DescribedObject& type : outputs->shapes)

@@ -33,7 +33,7 @@ struct UnreadableFile : std::runtime_error {
 };
 // "-" is standard input. `remedy`: end of the message if the file does not exist. Throws UnreadableFile.
 Source load_source(const std::string& path, const char* remedy = "`beamcam init` writes a first scene");
-// The same for a name inside a scene file. Rejects standard input, and pipes and devices, which might never end.
+// Loads a file that a scene file names. Rejects standard input, and pipes and devices, which might never end.
 Source load_named_source(const std::string& path);
 
 // Reads one output, which becomes the only output of the scene. `scene_name`: paths in the output are relative to its

@@ -117,7 +117,6 @@ class SchemaWriter {
             if (known.find(one) && known.find(other))
                 together.push_back(node_of(fmt::format(R"({{"required": ["{}", "{}"]}})", one, other)));
         if (!together.empty()) add(out, "not", one_of("anyOf", std::move(together)));
-        for (const Node& constraint : shape.constraints) append(out, constraint);
         --depth_;
         return out;
     }
@@ -173,7 +172,7 @@ class SchemaWriter {
 
     // A large property that occurs several times becomes a definition with the name of its key.
     Node shared(const std::string& name, Node property) {
-        constexpr std::size_t kLarge = 500;  // [bytes]
+        constexpr std::size_t kLarge = 300;  // [bytes]
         const std::string text = to_text(property);
         if (depth_ != 2 || text.size() < kLarge) return property;
         if (!counted_) ++seen_[text];

@@ -9,7 +9,7 @@ namespace beamcam::scenes {
 
 // `; did you mean "length"?` if a known word is similar enough, else "".
 std::string suggestion(std::string_view word, const std::vector<std::string>& known);
-// The same, or `; the choices are a, b, c`.
+// The suggestion, or `; the choices are a, b, c` where no word is similar enough.
 std::string suggestion_or_list(std::string_view word, const std::vector<std::string>& known);
 
 }  // namespace beamcam::scenes

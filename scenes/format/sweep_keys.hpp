@@ -1,4 +1,4 @@
-// What the keys and the options of a sweep share: the notations of samples and seeds, and the checks of a sweep.
+// The keys and the options of a sweep share these: the notations of samples and seeds, and the checks of a sweep.
 #pragma once
 
 #include <filesystem>

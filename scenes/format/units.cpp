@@ -82,7 +82,7 @@ std::optional<Scaled> named(std::string_view symbol) {
     return std::nullopt;
 }
 
-// Of one dimension, its SI unit the last, such as "N m"; or all.
+// The units of one dimension, its SI unit last, such as "N m"; or all units.
 std::vector<std::string> symbols_of(const Dimension* dimension) {
     std::vector<std::string> symbols;
     for (const NamedUnit& unit : kUnits) {

@@ -7,16 +7,15 @@
 
 #include "output/files/numbers.hpp"
 #include "output/film/video.hpp"
+#include "output/image/raster.hpp"
 #include "scenes/format/checks.hpp"
 #include "scenes/format/object_reader.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
-using output::number_in;
+using output::kLargestSide, output::kSmallestSide, output::number_in;
 
-// Below 16 px nothing can be drawn; 16384 px is OpenGL's largest viewport.
-constexpr int kSmallestSide = 16, kLargestSide = 16384;
 constexpr double kSlowestFrameRate = 0.1, kFastestFrameRate = 1000;  // [Hz]; players fail long before
 
 // ---- size and frame rate -----------------------------------------------------------------------
@@ -152,7 +151,8 @@ std::optional<Instant> read_instant(ObjectReader& r, const Node& node, const std
     if (text.starts_with("last") || std::ranges::any_of(kEventWords, begins)) {
         const auto event = parse_event(text);
         if (!event)
-            r.reject_value(node, key, ": events are counted from 1: impact:1, collision:2, apex:1, release:3, liftoff:2, touch");
+            r.reject_value(node, key,
+                           ": events are counted from 1: impact:1, collision:2, apex:1, release:3, liftoff:2, touch");
         return event;
     }
     const auto t = r.ranged_value(node, key, sim::dimension::kTime, kFromStart);
@@ -173,8 +173,9 @@ Node written(const Instant& at) {
 
 template <class Value>
 ValueFormat format_of_instant(Value& at) {
-    return format_of(at, "time, \"impact:N\", \"collision:N\", \"apex:N\", \"touch\", \"release\", \"liftoff:N\" or \"last\"",
-                     R"({"$ref": "#/$defs/instant"})", read_instant, written);
+    return format_of(
+        at, "time, \"impact:N\", \"collision:N\", \"apex:N\", \"touch\", \"release\", \"liftoff:N\" or \"last\"",
+        R"({"$ref": "#/$defs/instant"})", read_instant, written);
 }
 
 template <class Time>  // double, or std::optional<double>

@@ -45,7 +45,7 @@ using DimensionOf = std::function<std::optional<sim::Dimension>(const ObjectRead
 ValueFormat quantity_format(double& value, DimensionOf dimension);
 ValueFormat quantity_format(std::optional<double>& value, DimensionOf dimension);
 ValueFormat quantities_format(std::vector<double>& values, DimensionOf dimension, int fewest = 0);
-// Of the values of a channel.
+// The dimension of the values of a channel.
 sim::Dimension dimension_of(const sim::Channel& channel, const sim::Problem& problem);
 DimensionOf dimension_of_first(const std::vector<sim::Channel>& channels);
 ValueFormat size_format(Size& size);

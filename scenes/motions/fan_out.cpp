@@ -12,7 +12,7 @@
 
 namespace beamcam::scenes {
 
-void Gate::pass(long number, const std::function<void()>& action) {
+void OrderedGate::pass(long number, const std::function<void()>& action) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return closed_ || next_ == number; });
     if (closed_) throw Closed();
@@ -21,7 +21,7 @@ void Gate::pass(long number, const std::function<void()>& action) {
     changed_.notify_all();
 }
 
-void Gate::close() {
+void OrderedGate::close() {
     const std::lock_guard lock(mutex_);
     closed_ = true;
     changed_.notify_all();
@@ -36,15 +36,15 @@ namespace {
 // The threads of one fan_out.
 class Threads {
   public:
-    Threads(long count, const Crew& crew, const std::function<Worker()>& make_worker, Gate& gate)
+    Threads(long count, const ThreadCounts& counts, const std::function<Worker()>& make_worker, OrderedGate& gate)
         : count_(count),
-          most_(static_cast<int>(std::clamp<long>(crew.most, 1, std::max<long>(count, 1)))),
-          crew_(crew),
+          most_(static_cast<int>(std::clamp<long>(counts.most, 1, std::max<long>(count, 1)))),
+          counts_(counts),
           make_worker_(make_worker),
           gate_(gate) {}
 
     int run() {
-        for (int i = 1; i < std::min(crew_.first, most_); ++i) start_another();
+        for (int i = 1; i < std::min(counts_.first, most_); ++i) start_another();
         work();
         join();
         if (failure_) std::rethrow_exception(failure_);
@@ -69,9 +69,9 @@ class Threads {
             for (long k = next_++; k < count_; k = next_++) {
                 stop_if_interrupted();
                 worker(k);
-                if (crew_.more && working_ < most_ && next_ < count_ && crew_.more()) start_another();
+                if (counts_.more && working_ < most_ && next_ < count_ && counts_.more()) start_another();
             }
-        } catch (const Gate::Closed&) {
+        } catch (const OrderedGate::Closed&) {
             // the thread that closed it reports the reason
         } catch (...) {
             const std::lock_guard lock(mutex_);
@@ -96,9 +96,9 @@ class Threads {
 
     const long count_;
     const int most_;
-    const Crew& crew_;
+    const ThreadCounts& counts_;
     const std::function<Worker()>& make_worker_;
-    Gate& gate_;
+    OrderedGate& gate_;
     std::atomic<long> next_{0};
     std::atomic<int> working_{1};
     std::mutex mutex_;  // of the next two
@@ -108,12 +108,12 @@ class Threads {
 
 }  // namespace
 
-int fan_out(long count, const Crew& crew, const std::function<Worker()>& make_worker, Gate& gate) {
-    return Threads(count, crew, make_worker, gate).run();
+int fan_out(long count, const ThreadCounts& counts, const std::function<Worker()>& make_worker, OrderedGate& gate) {
+    return Threads(count, counts, make_worker, gate).run();
 }
 
 void fan_out(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
-    Gate unused;
+    OrderedGate unused;
     const int all = thread_count(threads);
     const auto make_worker = [&] { return [&](long k) { work(static_cast<std::size_t>(k)); }; };
     fan_out(static_cast<long>(count), {all, all}, make_worker, unused);

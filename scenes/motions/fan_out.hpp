@@ -9,7 +9,7 @@
 namespace beamcam::scenes {
 
 // Lets threads pass in the order of their numbers.
-class Gate {
+class OrderedGate {
   public:
     struct Closed : std::runtime_error {
         Closed() : std::runtime_error("another thread failed") {}
@@ -34,15 +34,15 @@ using Worker = std::function<void(long)>;
 
 // The number of threads: `first` from the beginning, and one more whenever `more` returns true, up to `most`. Threads
 // call `more` concurrently, after each task.
-struct Crew {
+struct ThreadCounts {
     int first = 1, most = 1;
     std::function<bool()> more = {};
 };
 
-// Executes the tasks 0 … count−1; the calling thread is the first of the crew. The first exception, also that of an
+// Executes the tasks 0 … count−1; the calling thread is the first one. The first exception, also that of an
 // interruption, closes the gate, ends the work and is rethrown here. Returns the number of threads.
-int fan_out(long count, const Crew& crew, const std::function<Worker()>& make_worker, Gate& gate);
-// With one worker for all threads; 0 means one thread for each core.
+int fan_out(long count, const ThreadCounts& counts, const std::function<Worker()>& make_worker, OrderedGate& gate);
+// All threads share one worker; 0 means one thread for each core.
 void fan_out(std::size_t count, int threads, const std::function<void(std::size_t)>& work);
 
 }  // namespace beamcam::scenes

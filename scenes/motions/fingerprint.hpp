@@ -1,5 +1,5 @@
-// What determines pixels besides the program: libraries, fonts, and for lit views the OpenGL driver and the processor.
-// Digests of pictures are stored with it.
+// The fingerprint of the parts that determine pixels besides the program: libraries, fonts, and for lit views the
+// OpenGL driver and the processor. Digests of pictures are stored with it.
 #pragma once
 
 #include <map>
@@ -12,11 +12,11 @@ struct Fingerprint {
     std::string id() const;  // first 12 digits of the SHA-256 of the parts
 };
 
-// For flat views. Throws render::FontError if a font is missing.
+// The fingerprint of flat views. Throws render::FontError if a font is missing.
 Fingerprint flat_fingerprint();
-// For figures: other fonts; the Chinese one may be missing.
+// The fingerprint of figures, which have other fonts; the Chinese one may be missing.
 Fingerprint figure_fingerprint();
-// For lit views: also the driver, which this loads. Also throws render::GlError.
+// The fingerprint of lit views includes the driver, which this loads. Also throws render::GlError.
 Fingerprint lit_fingerprint();
 
 // The instruction sets by which numerical libraries select code: "x86-64 avx2 fma".

@@ -33,7 +33,7 @@ ProgressStyle resolve(ProgressStyle style);
 inline void stop_if_interrupted() {
     if (output::interrupted()) throw sim::Interrupted();
 }
-// Of a simulation that reports its progress nowhere.
+// The progress of a simulation that reports it nowhere.
 inline bool until_interrupted(double) { return !output::interrupted(); }
 
 class Progress {

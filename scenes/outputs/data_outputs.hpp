@@ -16,7 +16,7 @@ struct DataSource {
     const sim::Request& request;     // of the scene's motion, for data files
     const sim::Result& run;          // its result
     const output::Work& work;        // until now
-    const output::Target* file;      // null: standard output
+    const output::FileTarget* file;  // null: standard output
     const output::SweepData* sweep;  // null unless the plan needs it
 };
 

@@ -50,37 +50,6 @@ static void visit(SceneVisitor& v, SeriesNote& note) {
     v.check([&note](ObjectReader& r) { check_markup(r, "text", note.text); });
 }
 
-// The figures that have a key, and their presets.
-static std::vector<std::string> names_with(std::string_view key) {
-    std::vector<std::string> names = figures_with(key);
-    for (const Preset& preset : embedded_presets())
-        if (const FigureType* type = figure_type(preset.figure()); type && type->takes(key))
-            names.push_back(preset.name);
-    return names;
-}
-
-// JSON Schema of the keys that only some figures have.
-static const std::string& constraint_of_figures() {
-    static const std::string kText = [] {
-        Node others = object_node();
-        for (const std::string_view key : keys_of_figures()) {
-            const std::vector<std::string> names = names_with(key);
-            Node having = object_node({{"properties", object_node({{"figure", object_node({{"enum", names}})}})}});
-            if (std::ranges::find(names, "series") == names.end())  // which is the default
-                add(having, "required", std::vector<std::string>{"figure"});
-            add(others, std::string(key), std::move(having));
-        }
-        return fmt::format(
-            R"({{"if": {{"properties": {{"figure": {{"const": "series"}}}}}},
-                "then": {{"anyOf": [{{"required": ["channels"]}}, {{"required": ["panels"]}}]}},
-                "else": {{"if": {{"properties": {{"figure": {{"enum": {}}}}}}},
-                          "then": {{"properties": {{"channels": {{"maxItems": 1}}}}}}}},
-                "dependentSchemas": {}}})",
-            one_line(Node(figures_with("window"))), one_line(others));
-    }();
-    return kText;
-}
-
 // A key of figures; only those that have it write it.
 using KeyOfFigure = std::function<sim::Key(const char* name)>;
 
@@ -91,24 +60,24 @@ static void visit_abscissa(SceneVisitor& v, SeriesKeys& series, const KeyOfFigur
         return channel ? dimension_of(*channel, r.context().scene.problem) : dim::kNone;  // of turns
     };
     v.value(key("x"), abscissa_format(series.against),
-            "Of \"series\": the abscissa: \"t\", \"turns\" of the cam, its \"phase\" (fraction of a turn), "
+            "In \"series\": the abscissa: \"t\", \"turns\" of the cam, its \"phase\" (fraction of a turn), "
             "\"frequency\" (amplitude spectra with a Hann window), or a channel.");
     v.value(key("x_low"), quantity_format(series.x_low, of_abscissa),
-            "Of \"series\": lower end of the abscissa; a plain number is in SI units, or in turns.");
+            "In \"series\": lower end of the abscissa; a plain number is in SI units, or in turns.");
     v.value(key("x_high"), quantity_format(series.x_high, of_abscissa),
-            "Of \"series\": upper end of the abscissa; a plain number is in SI units, or in turns.");
+            "In \"series\": upper end of the abscissa; a plain number is in SI units, or in turns.");
 }
 
 // The part of the motion.
 static void visit_interval(SceneVisitor& v, SeriesKeys& series, const KeyOfFigure& key) {
     const auto bound = [&](const char* name) { return series.at ? sim::written_if(false, name) : key(name); };
     v.value(bound("from"), bound_format(series.from, series.from_event),
-            fmt::format("Of {}: first instant. Events are those of the first motion of the figure.",
+            fmt::format("In {}: first instant. Events are those of the first motion of the figure.",
                         list_of_figures_with("from"))
                 .c_str());
     v.value(bound("to"), bound_format(series.to, series.to_event), "Last instant; by default the end of the scene.");
     v.value(key("at"), instant_format(series.at),
-            "Of \"strobe\", in place of \"from\" and \"to\": the only instant of the figure, a line drawing for print "
+            "In \"strobe\", in place of \"from\" and \"to\": the only instant of the figure, a line drawing for print "
             "with the bodies to scale and the contact force.");
     v.exclusive("at", "from");
     v.exclusive("at", "to");
@@ -122,31 +91,33 @@ static void visit_series(SceneVisitor& v, SeriesKeys& series, const std::string&
     if (windows && series.panels.empty()) series.panels.emplace_back();
     v.value("channels",
             windows ? channels_format(series.panels.front().channels) : grouped_channels_format(series.panels),
-            "Of \"series\": the channels, with one panel for each unit, in place of \"panels\". Of \"spectrogram\": "
+            "In \"series\": the channels, with one panel for each unit, in place of \"panels\". In \"spectrogram\": "
             "one channel.");
     List panels = SceneVisitor::items_of(series.panels);
     panels.max_size = 8, panels.of = "panels";
     panels.example = "[{\"channels\": [\"theta\"], \"right\": [\"contact_force\"]}, {\"channels\": [\"gap\"]}]";
-    v.list(key("panels"), panels, "Of \"series\": the panels, from top to bottom.");
+    v.list(key("panels"), panels, "In \"series\": the panels, from top to bottom.");
     v.exclusive("channels", "panels");
     visit_abscissa(v, series, key);
     visit_interval(v, series, key);
-    v.boolean(key("impacts"), series.impacts, "Of \"series\": vertical lines at the beginnings of impacts.");
+    v.boolean(key("impacts"), series.impacts, "In \"series\": vertical lines at the beginnings of impacts.");
     v.number(key("window"), series.window, dim::kTime, sim::kPositive,
-             "Of \"spectrogram\": length of the windows, rounded to a power of two of samples.");
+             "In \"spectrogram\": length of the windows, rounded to a power of two of samples.");
     v.number(key("highest"), series.highest, dim::kFrequency, sim::kPositive,
-             "Of \"spectrogram\": highest frequency of the figure.");
+             "In \"spectrogram\": highest frequency of the figure.");
     List notes = SceneVisitor::items_of(series.notes);
     notes.max_size = 12, notes.of = "notes", notes.example = "[{\"at\": \"impact:1\", \"text\": \"first touch\"}]";
-    v.list(key("notes"), notes, "Of \"series\": vertical lines with a text.");
-    v.constrain_schema(constraint_of_figures().c_str());
+    v.list(key("notes"), notes, "In \"series\": vertical lines with a text.");
     v.list(key("compare"), compared_motions(series.compare),
-           "Of \"series\": the motions of the figure, as in pictures.");
+           "In \"series\": the motions of the figure, as in pictures.");
     v.choice(key("comparison"), series.apart, {{false, "overlay"}, {true, "panels"}},
-             "Of \"series\": overlay: all motions in each panel; panels: separate panels for each motion, with equal "
+             "In \"series\": overlay: all motions in each panel; panels: separate panels for each motion, with equal "
              "scales.");
     v.boolean(key("residuals"), series.residuals,
-              "Of \"series\": a panel of the differences below each panel with measured data.");
+              "In \"series\": a panel of the differences below each panel with measured data.");
+    v.boolean(key("horizon"), series.horizon,
+              "In \"series\": curves are paler during the intervals in which θ is not reproducible; this needs further "
+              "runs with tighter tolerances and another method.");
 }
 
 void FigureOutput::visit(SceneVisitor& v) {
@@ -176,7 +147,7 @@ void FigureOutput::visit(SceneVisitor& v) {
     visit_series(v, series, figure);
     const FigureType* type = figure_type(figure);
     v.text(sim::written_if(type && type->takes("value"), "value"), value,
-           "Of \"bifurcation\": the column of the samples, by default \"v_n_before\" or \"theta\". Of \"map\" and "
+           "In \"bifurcation\": the column of the samples, by default \"v_n_before\" or \"theta\". In \"map\" and "
            "\"basins\": \"class\", \"exponent\", \"impacts_per_period\", or a column, whose mean is shown.");
     v.check([this](ObjectReader& r) { check_figure(r, *this); });
 }
@@ -185,16 +156,16 @@ void plan(Planner& planner, const FigureOutput& how, const ResolvedOutput& resol
     const FigureType& type = *figure_type(how.figure);
     if (type.of_sweep() && !planner.shard().whole()) return;  // a part of a sweep has no diagram
     if (type.of_sweep()) planner.require_sweep(how.file);
-    Studies studies;
-    FigureMaker maker = type.prepare(planner.scene(), how, studies);
+    MotionRequests requests;
+    FigureMaker maker = type.prepare(planner.scene(), how, requests);
     planner.add(
         {resolved.index, how.file, how.figure, {}},
-        [maker = std::move(maker), height = how.series.height](const Results& results) {
+        [maker = std::move(maker), height = how.series.height](const MotionResults& results) {
             render::figure::Figure made = maker(results);
             if (height) made.height = *height * 1e3;
             return made;
         },
-        studies.take());
+        requests.take());
 }
 
 }  // namespace beamcam::scenes

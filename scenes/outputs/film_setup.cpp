@@ -21,7 +21,7 @@ std::string beyond_model(const sim::Problem& problem) {
     return fmt::format(" · bends beyond {}", sim::name(problem.beam.model));
 }
 
-render::Motion motion_of(const Pictures& p, const MotionRequest& shown, sim::Result& result) {
+render::Motion motion_of(const PlannedPictures& p, const MotionRequest& shown, sim::Result& result) {
     render::Motion motion;
     motion.problem = shown.problem;
     motion.label = shown.label;
@@ -33,7 +33,7 @@ render::Motion motion_of(const Pictures& p, const MotionRequest& shown, sim::Res
     motion.impacts = result.impacts;
     motion.end = result.end_time;
     if (p.horizon)  // curves are paler where θ is not reproducible
-        for (const Lost& lost : unreliable(result, std::numeric_limits<double>::infinity()))
+        for (const UnreliableInterval& lost : unreliable_intervals(result, std::numeric_limits<double>::infinity()))
             motion.unreliable.push_back({lost.from, lost.to});
     return motion;
 }
@@ -63,7 +63,8 @@ std::vector<render::FilmData> data_of(const Scene& scene) {
 }
 
 // The accuracy note is that of the least accurate motion.
-void add_motions(const Plan& plan, const Pictures& p, std::vector<sim::Result>& results, render::FilmSetup& setup) {
+void add_motions(const Plan& plan, const PlannedPictures& p, std::vector<sim::Result>& results,
+                 render::FilmSetup& setup) {
     double worst = -1;
     std::string beyond;
     for (const std::size_t i : p.motions) {
@@ -92,7 +93,7 @@ std::string accuracy_note(const sim::Problem& problem, const sim::Result& result
     return note;
 }
 
-render::FilmSetup film_setup(const Plan& plan, const Pictures& p, const Scene& scene,
+render::FilmSetup film_setup(const Plan& plan, const PlannedPictures& p, const Scene& scene,
                              std::vector<sim::Result>& results) {
     render::FilmSetup setup;
     setup.title = scene.title;
@@ -102,7 +103,7 @@ render::FilmSetup film_setup(const Plan& plan, const Pictures& p, const Scene& s
     setup.units = scene.units;
     setup.layout = p.layout;
     setup.comparison = p.comparison;
-    if (p.kind != Pictures::Kind::still) setup.fps = p.span.fps.value();
+    if (p.kind != PlannedPictures::Kind::still) setup.fps = p.span.fps.value();
     setup.speeds = p.times.speeds;
     setup.slow_motion = is_slow_motion(p, p.end_time);
     setup.callouts = p.times.callouts;

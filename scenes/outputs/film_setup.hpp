@@ -10,7 +10,7 @@
 namespace beamcam::scenes {
 
 // `results`: of the motions of the plan; poses and tables of this picture are moved out of them.
-render::FilmSetup film_setup(const Plan& plan, const Pictures& p, const Scene& scene,
+render::FilmSetup film_setup(const Plan& plan, const PlannedPictures& p, const Scene& scene,
                              std::vector<sim::Result>& results);
 
 // "rtol 10⁻⁸ · energy closes to 2 × 10⁻⁹ · bends beyond first-order"

@@ -44,11 +44,11 @@ void OutputFiles::claim(const std::vector<std::string>& files) {
         for (const fs::path& file : claimed) output::ensure_directory(file.parent_path());
 }
 
-output::Target OutputFiles::target(const fs::path& file, std::optional<std::size_t> output) const {
+output::FileTarget OutputFiles::target(const fs::path& file, std::optional<std::size_t> output) const {
     output::Origin origin;
     if (output) origin.inputs = inputs_[*output];
     if (kind_without_scene(ending_of(file))) origin.version = kVersion, origin.scene = metadata_json(scene_);
-    output::Target target = context_.file_list.target(file, std::move(origin));
+    output::FileTarget target = context_.file_list.target(file, std::move(origin));
     target.within = context_.options.directory;
     return target;
 }

@@ -23,8 +23,8 @@ class OutputFiles {
     // Throws if one of these files of outputs cannot be written.
     void claim(const std::vector<std::string>& files);
 
-    // Without `output` no inputs are recorded.
-    output::Target target(const std::filesystem::path& file, std::optional<std::size_t> output = {}) const;
+    // No inputs are recorded without `output`.
+    output::FileTarget target(const std::filesystem::path& file, std::optional<std::size_t> output = {}) const;
     // Counts and reports a written file.
     void wrote(const std::filesystem::path& file, const std::string& what);
     void count_written(const std::filesystem::path& file);

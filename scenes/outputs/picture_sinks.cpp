@@ -15,8 +15,8 @@ namespace {
 
 class PngSink final : public PictureSink {
   public:
-    PngSink(const Pictures& p, const SinkFiles& to) : p_(p), to_(to), metadata_(png_metadata(to)) {
-        if (p.kind != Pictures::Kind::frames) return;
+    PngSink(const PlannedPictures& p, const SinkFiles& to) : p_(p), to_(to), metadata_(png_metadata(to)) {
+        if (p.kind != PlannedPictures::Kind::frames) return;
         // A scene may be many times as large as a picture: the first frame has it, the others name that.
         later_metadata_ = metadata_;
         later_metadata_.erase("beamcam-scene");
@@ -24,27 +24,27 @@ class PngSink final : public PictureSink {
             std::filesystem::path(numbered_file(p.file, p.times.first)).filename().string();
     }
 
-    Input input(Gate&) override {
+    Input input(OrderedGate&) override {
         // An unchanged frame has the file of the one before.
         return [this, file = std::make_shared<std::string>(), encoded_with_scene = std::make_shared<bool>(false)](
                    long k, const render::Image& image, const render::DirtyTiles& changed) {
             const std::filesystem::path path = path_of(static_cast<std::size_t>(k));
-            const output::Target target = to_.files.target(path, p_.output);
+            const output::FileTarget target = to_.files.target(path, p_.output);
             const auto start = Clock::now();
-            const bool has_scene = p_.kind == Pictures::Kind::still || p_.draw[static_cast<std::size_t>(k)] == 0;
+            const bool has_scene = p_.kind == PlannedPictures::Kind::still || p_.draw[static_cast<std::size_t>(k)] == 0;
             if (file->empty() || changed.any() || *encoded_with_scene != has_scene)
                 *file = output::encode_png(image, {std::nullopt, has_scene ? metadata_ : later_metadata_});
             *encoded_with_scene = has_scene;
             output::write_file(
                 target, *file,
-                p_.kind == Pictures::Kind::still ? output::Durability::synced : output::Durability::buffered);
+                p_.kind == PlannedPictures::Kind::still ? output::Durability::synced : output::Durability::buffered);
             const std::lock_guard lock(mutex_);
             to_.context.times.write += seconds_since(start);
-            if (p_.kind == Pictures::Kind::frames) to_.files.count_written(path);
+            if (p_.kind == PlannedPictures::Kind::frames) to_.files.count_written(path);
         };
     }
     void finish() override {
-        if (p_.kind == Pictures::Kind::still) return to_.files.wrote(to_.files.path_of(p_.file), "");
+        if (p_.kind == PlannedPictures::Kind::still) return to_.files.wrote(to_.files.path_of(p_.file), "");
         to_.context.progress.end();
         const std::string last = numbered_file(p_.file, p_.number_of(p_.draw.size() - 1));
         to_.context.print("wrote {}{} ({})\n", path_of(0).string(), p_.draw.size() > 1 ? " … " + last : "",
@@ -53,10 +53,11 @@ class PngSink final : public PictureSink {
 
   private:
     std::filesystem::path path_of(std::size_t k) const {
-        return to_.files.path_of(p_.kind == Pictures::Kind::still ? p_.file : numbered_file(p_.file, p_.number_of(k)));
+        return to_.files.path_of(p_.kind == PlannedPictures::Kind::still ? p_.file
+                                                                         : numbered_file(p_.file, p_.number_of(k)));
     }
 
-    const Pictures& p_;
+    const PlannedPictures& p_;
     SinkFiles to_;
     const std::map<std::string, std::string> metadata_;
     std::map<std::string, std::string> later_metadata_;  // of the frames after the first
@@ -65,14 +66,14 @@ class PngSink final : public PictureSink {
 
 class CallbackSink final : public PictureSink {
   public:
-    CallbackSink(const Pictures& p, const DrawCallbacks& callbacks) : p_(p), callbacks_(callbacks) {}
-    Input input(Gate&) override {
+    CallbackSink(const PlannedPictures& p, const DrawCallbacks& callbacks) : p_(p), callbacks_(callbacks) {}
+    Input input(OrderedGate&) override {
         return
             [this](long k, const render::Image& image, const render::DirtyTiles&) { callbacks_.picture(p_, k, image); };
     }
 
   private:
-    const Pictures& p_;
+    const PlannedPictures& p_;
     const DrawCallbacks& callbacks_;
 };
 
@@ -86,17 +87,18 @@ std::map<std::string, std::string> png_metadata(const SinkFiles& to) {
     return all;
 }
 
-std::unique_ptr<PictureSink> make_png_sink(const Pictures& p, const SinkFiles& files) {
+std::unique_ptr<PictureSink> make_png_sink(const PlannedPictures& p, const SinkFiles& files) {
     return std::make_unique<PngSink>(p, files);
 }
-std::unique_ptr<PictureSink> make_callback_sink(const Pictures& p, const DrawCallbacks& callbacks) {
+std::unique_ptr<PictureSink> make_callback_sink(const PlannedPictures& p, const DrawCallbacks& callbacks) {
     return std::make_unique<CallbackSink>(p, callbacks);
 }
 
-void draw(const Pictures& p, const render::Film& film, PictureSink& sink, RunContext& context) {
+void draw(const PlannedPictures& p, const render::Film& film, PictureSink& sink, RunContext& context) {
     const auto count = static_cast<long>(p.draw.size());
-    context.progress.begin(p.kind == Pictures::Kind::video ? "film" : "draw", static_cast<double>(count), "frames");
-    Gate gate;
+    context.progress.begin(p.kind == PlannedPictures::Kind::video ? "film" : "draw", static_cast<double>(count),
+                           "frames");
+    OrderedGate gate;
     std::mutex mutex;  // guards counts and times
     long put = 0;
     const auto make_worker = [&]() -> Worker {
@@ -116,8 +118,8 @@ void draw(const Pictures& p, const render::Film& film, PictureSink& sink, RunCon
             context.progress.reach(sink.done(++put));
         };
     };
-    const Crew crew = sink.crew(thread_count(context.options.threads));
-    context.times.threads = std::max(context.times.threads, fan_out(count, crew, make_worker, gate));
+    const ThreadCounts threads = sink.threads(thread_count(context.options.threads));
+    context.times.threads = std::max(context.times.threads, fan_out(count, threads, make_worker, gate));
     stop_if_interrupted();
     sink.finish();
     context.progress.end();

@@ -15,16 +15,16 @@ namespace beamcam::scenes {
 
 class PictureSink {
   public:
-    // Receives the pictures of one drawing thread. `k`: index into Pictures::draw; `changed`: where the picture can
-    // differ from the previous one of this thread.
+    // Receives the pictures of one drawing thread. `k`: index into PlannedPictures::draw; `changed`: where the picture
+    // can differ from the previous one of this thread.
     using Input = std::function<void(long k, const render::Image& image, const render::DirtyTiles& changed)>;
 
     virtual ~PictureSink() = default;
     // Creates the input of one thread; ordered output passes the gate.
-    virtual Input input(Gate& gate) = 0;
+    virtual Input input(OrderedGate& gate) = 0;
     // True: picture k equals the previous one and was repeated without drawing.
-    virtual bool repeat(long, const render::Film&, Gate&) { return false; }
-    virtual Crew crew(int most) const { return {most, most}; }
+    virtual bool repeat(long, const render::Film&, OrderedGate&) { return false; }
+    virtual ThreadCounts threads(int most) const { return {most, most}; }
     // Number of completed pictures, when `put` have been delivered.
     virtual double done(long put) const { return static_cast<double>(put); }
     // Called after the last picture.
@@ -40,15 +40,15 @@ struct SinkFiles {
 };
 
 std::map<std::string, std::string> png_metadata(const SinkFiles& files);
-// With the keys of MP4; `scene` as JSON.
+// The metadata of a film, with the keys of MP4; `scene` is JSON.
 std::map<std::string, std::string> film_metadata(const std::string& scene, const std::string& title);
 output::VideoOptions video_options(const PictureOutput& p);
 
-std::unique_ptr<PictureSink> make_video_sink(const Pictures& p, render::Film& film, const SinkFiles& files);
-std::unique_ptr<PictureSink> make_png_sink(const Pictures& p, const SinkFiles& files);
-std::unique_ptr<PictureSink> make_callback_sink(const Pictures& p, const DrawCallbacks& callbacks);
+std::unique_ptr<PictureSink> make_video_sink(const PlannedPictures& p, render::Film& film, const SinkFiles& files);
+std::unique_ptr<PictureSink> make_png_sink(const PlannedPictures& p, const SinkFiles& files);
+std::unique_ptr<PictureSink> make_callback_sink(const PlannedPictures& p, const DrawCallbacks& callbacks);
 
 // Draws the selected frames of a film on several threads.
-void draw(const Pictures& p, const render::Film& film, PictureSink& sink, RunContext& context);
+void draw(const PlannedPictures& p, const render::Film& film, PictureSink& sink, RunContext& context);
 
 }  // namespace beamcam::scenes

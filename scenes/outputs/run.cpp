@@ -117,13 +117,13 @@ void draw(const PlanWithFigures& plan, const Scene& scene, std::vector<sim::Resu
         sweep->make(options.threads, context.progress);
     }
     for (std::size_t i = 0; i < plan.figures.size(); ++i) {
-        Results of_figure;
-        for (const std::size_t motion : plan.figures[i].motions) of_figure.studies.push_back(&results[motion]);
-        if (sweep) of_figure.swept = sweep->swept();
+        MotionResults of_figure;
+        for (const std::size_t motion : plan.figures[i].motions) of_figure.motions.push_back(&results[motion]);
+        if (sweep) of_figure.sweep = sweep->result();
         const auto& how = std::get<FigureOutput>(scene.outputs[plan.figures[i].output]);
         callbacks.figure(figure_image(plan.makers[i](of_figure), how));
     }
-    for (const Pictures& p : plan.pictures) {
+    for (const PlannedPictures& p : plan.pictures) {
         stop_if_interrupted();
         const render::Film film(film_setup(plan, p, scene, results));
         draw(p, film, *make_callback_sink(p, callbacks), context);

@@ -45,7 +45,7 @@ void run(const Scene& scene, const RunOptions& options);
 // Receives images, for commands that compare pictures.
 struct DrawCallbacks {
     // A frame, numbered from 0 in each output. Several threads call this concurrently, in any order.
-    std::function<void(const Pictures&, long frame, const render::Image&)> picture;
+    std::function<void(const PlannedPictures&, long frame, const render::Image&)> picture;
     std::function<void(const render::Image&)> figure;  // in pixels, whatever the ending of its file
 };
 // Draws the pictures and figures of a plan. `results`: of its motions.

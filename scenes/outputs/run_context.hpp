@@ -1,4 +1,4 @@
-// What the scenes of one `run` share: options, list of files, motions, counts and times.
+// The scenes of one `run` share this: options, list of files, motions, counts and times.
 #pragma once
 
 #include <exception>

@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Without the rows that a failed run did not reach; their values are all NaN.
+// The table without the rows that a failed run did not reach, whose values are all NaN.
 sim::Table reached_rows(const sim::Table& table) {
     sim::Table reached{table.channels, std::vector<std::vector<double>>(table.values.size())};
     for (std::size_t row = 0; row < table.rows(); ++row) {
@@ -125,7 +125,7 @@ void SceneRun::plan() {
     std::vector<std::string> files;  // whose names are known now
     for (const DataFile& d : plan_.data)
         if (!d.part.empty()) files.push_back(d.file);
-    for (const Pictures& p : plan_.pictures) {
+    for (const PlannedPictures& p : plan_.pictures) {
         if (p.kind != PictureOutput::Kind::frames) continue;
         for (std::size_t k = 0; k < p.draw.size(); ++k) files.push_back(numbered_file(p.file, p.number_of(k)));
     }
@@ -177,12 +177,12 @@ void SceneRun::write_outputs() {
     };
     write_data_files(false);
     for (std::size_t i = 0; i < plan_.figures.size(); ++i) attempt(plan_.figures[i].output, [&] { write_figure(i); });
-    for (const Pictures& p : plan_.pictures) attempt(p.output, [&] { write_pictures(p); });
+    for (const PlannedPictures& p : plan_.pictures) attempt(p.output, [&] { write_pictures(p); });
     write_data_files(true);
     if (sweep_ && !rejected_) sweep_->remove();
 }
 
-DataSource SceneRun::source_of(const sim::Result& run, const output::Target* file) const {
+DataSource SceneRun::source_of(const sim::Result& run, const output::FileTarget* file) const {
     static const sim::Request kNone;
     return {scene_, plan_.run ? plan_.motions[*plan_.run].request : kNone,
             run,    context_.work,
@@ -198,7 +198,7 @@ void SceneRun::write_data_file(const DataFile& d) {
         write_data(d, source_of(run, nullptr));
     } else {
         const fs::path file = files_.path_of(d.file);
-        const output::Target target = files_.target(file, d.output);
+        const output::FileTarget target = files_.target(file, d.output);
         files_.wrote(file, write_data(d, source_of(run, &target)));
     }
     context_.times.write += seconds_since(start);
@@ -209,10 +209,10 @@ void SceneRun::write_figure(std::size_t figure) {
     const auto start = Clock::now();
     const FigureFile& f = plan_.figures[figure];
     const auto& how = std::get<FigureOutput>(scene_.outputs[f.output]);
-    Results results;
-    for (const std::size_t motion : f.motions) results.studies.push_back(&results_[motion]);
+    MotionResults results;
+    for (const std::size_t motion : f.motions) results.motions.push_back(&results_[motion]);
     Scene carried = scene_;
-    if (sweep_) results.swept = sweep_->swept(), carried.sweep = sweep_->grid().sweep();
+    if (sweep_) results.sweep = sweep_->result(), carried.sweep = sweep_->grid().sweep();
     const render::figure::Figure made = plan_.makers[figure](results);
     for (const std::string& what : missing_data(made)) context_.print("warning: {} shows {}\n", how.file, what);
     for (const auto& [file, bytes] : figure_files(made, how, scene_of_figure(std::move(carried), how))) {
@@ -224,13 +224,13 @@ void SceneRun::write_figure(std::size_t figure) {
     context_.times.write += seconds_since(start);
 }
 
-void SceneRun::write_pictures(const Pictures& p) {
+void SceneRun::write_pictures(const PlannedPictures& p) {
     stop_if_interrupted();
     warn_of_omissions(p);
     const std::size_t first = p.motions.front();
     const std::string accuracy = accuracy_note(plan_.motions[first].problem, results_[first]);
     render::FilmSetup setup = film_setup(plan_, p, scene_, results_);
-    if (p.kind == Pictures::Kind::page) return write_page(p, render::html_page(setup));
+    if (p.kind == PlannedPictures::Kind::page) return write_page(p, render::html_page(setup));
     const SinkFiles to{scene_, files_, context_, accuracy};
     render::Film film(std::move(setup));
     if (const auto requested = p.view.exaggeration; requested && film.exaggeration_reduced())
@@ -253,18 +253,18 @@ void SceneRun::write_pictures(const Pictures& p) {
         context_.print(
             "warning: the mechanism is outside the picture in {1} of {2} of {0}; change \"follow\" or \"zoom\"\n",
             p.file, empty, counted(film.frames(), "frame"));
-    const auto sink = p.kind == Pictures::Kind::video ? make_video_sink(p, film, to) : make_png_sink(p, to);
+    const auto sink = p.kind == PlannedPictures::Kind::video ? make_video_sink(p, film, to) : make_png_sink(p, to);
     draw(p, film, *sink, context_);
 }
 
-void SceneRun::write_page(const Pictures& p, const std::string& bytes) {
+void SceneRun::write_page(const PlannedPictures& p, const std::string& bytes) {
     const fs::path file = files_.path_of(p.file);
     output::write_file(files_.target(file, p.output), bytes);
     files_.wrote(file, fmt::format("{:.0f} kB", static_cast<double>(bytes.size()) / 1000));
 }
 
 // Warns about requested parts that the picture does not show.
-void SceneRun::warn_of_omissions(const Pictures& p) const {
+void SceneRun::warn_of_omissions(const PlannedPictures& p) const {
     if (!p.omitted_panels.empty())
         context_.print("warning: {} shows no {}: {}\n", p.file, p.omitted_panels, why_panels_are_omitted(p.size));
     constexpr std::size_t kFewFrames = 12;
@@ -277,7 +277,7 @@ void SceneRun::warn_of_omissions(const Pictures& p) const {
                        fmt::join(p.times.unreached_events, " or "));
     if (const std::string lost = characters_without_font(p, scene_); !lost.empty())
         context_.print("warning: {}\n", lost);
-    if (p.kind == Pictures::Kind::page) return;
+    if (p.kind == PlannedPictures::Kind::page) return;
     if (!context_.options.verbose || context_.options.quiet) return;
     if (const std::string what = omitted_text(p, scene_); !what.empty())
         context_.print("warning: {} shows no {}: {}\n", p.file, what, why_text_is_omitted(p.size));
@@ -293,7 +293,7 @@ void SceneRun::write_partial_data() {
         if (is_stdout(d.file) || !(rows || events)) continue;
         fs::path file = files_.path_of(d.file);
         file.replace_extension(".partial" + (rows ? std::string(".csv") : ending_of(d.file)));
-        const output::Target target = files_.target(file);
+        const output::FileTarget target = files_.target(file);
         if (rows)
             output::write_table(target, reached_rows(partial->tables[d.tables.front()]));
         else

@@ -39,13 +39,13 @@ class SceneRun {
     void report_kept_frames(const ResolvedOutput& sequence);
     void check_libraries();
     const Output& output_of(const DataFile& data) const { return scene_.outputs[data.output]; }
-    // Of this motion of the scene. `file`: null for standard output.
-    DataSource source_of(const sim::Result& run, const output::Target* file) const;
+    // The source of data files, from this motion of the scene. `file`: null for standard output.
+    DataSource source_of(const sim::Result& run, const output::FileTarget* file) const;
     void write_data_file(const DataFile& data);
     void write_figure(std::size_t figure);
-    void write_pictures(const Pictures& p);
-    void write_page(const Pictures& p, const std::string& bytes);
-    void warn_of_omissions(const Pictures& p) const;
+    void write_pictures(const PlannedPictures& p);
+    void write_page(const PlannedPictures& p, const std::string& bytes);
+    void warn_of_omissions(const PlannedPictures& p) const;
     void attempt(std::size_t output, const std::function<void()>& work);
     void reject(std::size_t output, const std::string& why);
 

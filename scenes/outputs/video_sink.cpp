@@ -25,7 +25,7 @@ std::vector<std::uint32_t> palette_of(render::Film& film) {
     return maker.colors();
 }
 
-output::VideoOptions options_of(const Pictures& p, render::Film& film, const SinkFiles& to) {
+output::VideoOptions options_of(const PlannedPictures& p, render::Film& film, const SinkFiles& to) {
     output::VideoOptions options = video_options(p);
     if (options.codec == output::Codec::gif) options.palette = palette_of(film);
     options.metadata = film_metadata(metadata_json(to.scene), to.scene.title);
@@ -64,7 +64,7 @@ class EncoderBacklog {
 
 class VideoSink final : public PictureSink {
   public:
-    VideoSink(const Pictures& p, render::Film& film, const SinkFiles& to)
+    VideoSink(const PlannedPictures& p, render::Film& film, const SinkFiles& to)
         : p_(p),
           to_(to),
           poster_metadata_(p.times.poster ? png_metadata(to) : std::map<std::string, std::string>()),
@@ -72,7 +72,7 @@ class VideoSink final : public PictureSink {
         ++to.context.work.encoders;
     }
 
-    Input input(Gate& gate) override {
+    Input input(OrderedGate& gate) override {
         return [this, &gate, converter = std::make_shared<output::VideoInput>(video_)](
                    long k, const render::Image& image, const render::DirtyTiles& changed) {
             if (is_poster(static_cast<std::size_t>(k)))
@@ -83,14 +83,14 @@ class VideoSink final : public PictureSink {
         };
     }
     // A poster is always drawn.
-    bool repeat(long k, const render::Film& film, Gate& gate) override {
+    bool repeat(long k, const render::Film& film, OrderedGate& gate) override {
         const auto at = static_cast<std::size_t>(k);
         if (k == 0 || !film.repeats(p_.draw[at]) || is_poster(at)) return false;
         gate.pass(k, [&] { video_.repeat(); });
         return true;
     }
     // The encoder has its own threads; a few drawing threads keep it busy.
-    Crew crew(int most) const override {
+    ThreadCounts threads(int most) const override {
         if (p_.view.style == render::Style::solid) return {most, most};
         const int share = p_.view.style == render::Style::flat ? 4 : 2;
         return {std::max(1, most / share), most,
@@ -114,7 +114,7 @@ class VideoSink final : public PictureSink {
   private:
     bool is_poster(std::size_t k) const { return p_.times.poster && p_.draw[k] == *p_.times.poster; }
 
-    const Pictures& p_;
+    const PlannedPictures& p_;
     SinkFiles to_;
     const std::map<std::string, std::string> poster_metadata_;
     output::VideoWriter video_;
@@ -141,7 +141,7 @@ output::VideoOptions video_options(const PictureOutput& p) {
     return video;
 }
 
-std::unique_ptr<PictureSink> make_video_sink(const Pictures& p, render::Film& film, const SinkFiles& files) {
+std::unique_ptr<PictureSink> make_video_sink(const PlannedPictures& p, render::Film& film, const SinkFiles& files) {
     return std::make_unique<VideoSink>(p, film, files);
 }
 

@@ -12,7 +12,7 @@
 namespace beamcam::scenes {
 
 bool Plan::needs_gl() const {
-    return std::ranges::any_of(pictures, [](const Pictures& p) { return p.view.style != render::Style::flat; });
+    return std::ranges::any_of(pictures, [](const PlannedPictures& p) { return p.view.style != render::Style::flat; });
 }
 
 std::string why_panels_are_omitted(const Size& size) {
@@ -24,7 +24,7 @@ std::string why_text_is_omitted(const Size& size) {
     return fmt::format("{} × {} is too small for them; increase \"size\"", size.width, size.height);
 }
 
-std::string omitted_text(const Pictures& p, const Scene& scene) {
+std::string omitted_text(const PlannedPictures& p, const Scene& scene) {
     std::vector<const sim::Problem*> problems;
     for (const Compared& each : p.compare) problems.push_back(&each.problem);
     if (problems.empty()) problems.push_back(&scene.problem);

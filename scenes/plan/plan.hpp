@@ -26,13 +26,13 @@ struct ExistingWork {
 };
 
 // The parts of the request for a motion that a picture shows.
-// Of Request::poses; the survey is for the choice of scales, the path for that of the tip.
+// Indices into Request::poses: the survey serves the choice of scales, the path that of the tip.
 constexpr std::size_t kFramePoses = 0, kSurveyPoses = 1, kPathPoses = 2;
-// Of Request::tables: channels of the panels; with a cam t, contact_x, contact_s, contact_force.
+// Indices into Request::tables: the channels of the panels; with a cam t, contact_x, contact_s, contact_force.
 constexpr std::size_t kChartTable = 0, kTraceTable = 1;
 
 // An output with pictures of the mechanism, as this run makes it.
-struct Pictures : PictureOutput {
+struct PlannedPictures : PictureOutput {
     std::size_t output = 0;            // index into the scene's outputs
     double end_time = 0;               // last time that it needs [s]
     FilmTimes times;                   // its frames, charts, captions and movements of the camera
@@ -63,7 +63,7 @@ struct Plan {
     std::vector<MotionRequest> motions;
     std::optional<std::size_t> run;  // the request for data files of the scene's motion
     std::string sweep;               // the first file that needs the points of the scene's sweep; empty: none
-    std::vector<Pictures> pictures;
+    std::vector<PlannedPictures> pictures;
     std::vector<FigureFile> figures;
     std::vector<DataFile> data;        // in the order of the types
     std::vector<std::string> kept;     // files that are up to date: "t.csv", "4 frames of f-##.png"
@@ -83,12 +83,12 @@ PlanWithFigures plan(const ResolvedScene& scene, const Shard& shard = {}, const 
 // The end of a run for all outputs of a scene [s].
 double run_end(const Scene& scene);
 
-// The reason for Pictures::omitted_panels.
+// The reason for PlannedPictures::omitted_panels.
 std::string why_panels_are_omitted(const Size& size);
 
 // Parameters and colour scales that do not fit into the picture: "R = 100 mm; colour scales"; empty if all fit. Loads
 // fonts. Throws render::FontError.
-std::string omitted_text(const Pictures& p, const Scene& scene);
+std::string omitted_text(const PlannedPictures& p, const Scene& scene);
 // The reason for omitted_text.
 std::string why_text_is_omitted(const Size& size);
 // "fall.mp4 omits 🙂: no font has these characters", of title, captions (also those outside the film)

@@ -67,7 +67,8 @@ std::vector<Line> lines_of(const Plan& plan, const Scene& scene) {
         lines.push_back({type_of(scene.outputs[output]), files.front(), std::move(content)});
         for (std::size_t i = 1; i < files.size(); ++i) lines.push_back({"", files[i], {}});
     };
-    for (const Pictures& p : plan.pictures) add_output(p.output, p.has_frames() ? counted(p.draw.size(), "frame") : "");
+    for (const PlannedPictures& p : plan.pictures)
+        add_output(p.output, p.has_frames() ? counted(p.draw.size(), "frame") : "");
     for (const FigureFile& f : plan.figures) add_output(f.output, f.figure);
     for (const DataFile& d : plan.data) lines.push_back({type_of(scene.outputs[d.output]), d.file, d.content});
     for (const std::size_t output : plan.waiting)

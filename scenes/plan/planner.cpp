@@ -15,7 +15,7 @@ using sim::ChannelKind;
 const std::vector<sim::Channel> kTraceChannels = {
     {ChannelKind::t, 0}, {ChannelKind::contact_x, 0}, {ChannelKind::contact_s, 0}, {ChannelKind::contact_force, 0}};
 
-std::string omitted_panels(const Pictures& picture) {
+std::string omitted_panels(const PlannedPictures& picture) {
     std::string out;
     if (!picture.layout) return out;
     render::Shown shown = picture.view.show;
@@ -39,7 +39,8 @@ std::optional<std::pair<sim::Channel, sim::Channel>> drawn_curve(const std::vect
     return std::nullopt;
 }
 
-sim::Request request_of(const Pictures& p, const sim::Problem& problem, const std::vector<render::PanelSpec>& panels) {
+sim::Request request_of(const PlannedPictures& p, const sim::Problem& problem,
+                        const std::vector<render::PanelSpec>& panels) {
     sim::Request request;
     request.end_time = p.end_time;
     request.horizon = p.horizon;
@@ -90,7 +91,7 @@ std::size_t Planner::add_table(std::vector<double> times, std::vector<sim::Chann
 }
 
 void Planner::add(const ResolvedOutput& picture) {
-    Pictures p;
+    PlannedPictures p;
     static_cast<PictureOutput&>(p) = std::get<PictureOutput>(picture.output);
     p.output = picture.index;
     p.end_time = picture.end_time;

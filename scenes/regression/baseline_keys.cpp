@@ -70,7 +70,6 @@ void visit(SceneVisitor& v, Baseline& entry) {
             "trajectory (by default 1 kHz), shapes, impacts, summary, state (their numbers and the motion behind "
             "them); or sweep, the scene's own "
             "(the attractors).");
-    v.constrain_schema(R"({"required": ["scene", "output"]})");
     v.boolean("physics", entry.physics, "Whether the motion behind a picture is compared, too.");
     v.object("tolerance", entry.tolerance, "Tolerance of this entry.");
 }

@@ -61,7 +61,7 @@ class Reader {
     fs::path folder() const { return path_ == "-" ? fs::path(".") : fs::path(path_).parent_path(); }
 
     // Reads the scene and the output of the entry. A missing scene, or an error in it, concerns its entry only.
-    void complete(Baseline& entry, const Place& place) {
+    void complete(Baseline& entry, const SourcePosition& place) {
         const Tolerance given = all_.tolerance.overridden_by(entry.tolerance);
         const auto present = [&](const Node& node, const char* key, const char* example) {
             return !node.is_null() ||
@@ -74,7 +74,7 @@ class Reader {
     }
 
     // Adds the error "entries.NAME.KEY<why>" to the entry.
-    bool reject(Baseline& entry, const Place& place, const char* key, const std::string& why) {
+    bool reject(Baseline& entry, const SourcePosition& place, const char* key, const std::string& why) {
         const std::string text = fmt::format("entries.{}{}{}", entry.name, key, why);
         entry.problem += describe({all_.source}, Message{place, text});
         return false;

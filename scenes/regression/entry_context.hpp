@@ -11,7 +11,7 @@
 
 namespace beamcam::scenes {
 
-// In the folder of a report. `kind`: "actual", "expected", "difference".
+// The path of a picture in the folder of a report. `kind`: "actual", "expected", "difference".
 std::filesystem::path report_picture(const std::string& entry, long frame, const char* kind);
 
 struct EntryContext {

@@ -9,7 +9,6 @@
 
 #include "output/data/table_reader.hpp"
 #include "output/files/atomic_file.hpp"
-#include "scenes/regression/number_record.hpp"
 #include "scenes/regression/sweep_record.hpp"
 #include "scenes/scene/exit_code.hpp"
 #include "scenes/sweep/sweep_run.hpp"
@@ -55,7 +54,7 @@ void EntryMotion::judge(std::size_t number, const std::string& label, const sim:
     Verdict verdict = Verdict::missing;
     read(
         [&] {
-            const std::optional<MotionRecord> expected = read_record(test_.references, names);
+            const std::optional<Numbers> expected = read_record(test_.references, names);
             if (!expected) return add_missing(label);
             const MotionVerdict found = compare(*expected, record_of(table, impacts, until), test_.tolerance);
             verdict = found.verdict;
@@ -104,7 +103,7 @@ void EntryMotion::require_settled(const SweepRun& sweep) {
     if (unsettled == points) throw SceneError("not accepted: " + test_.result.motion_lines.back());
 }
 
-void EntryMotion::judge_numbers(const std::string& name, const std::function<void(const output::Target&)>& write) {
+void EntryMotion::judge_numbers(const std::string& name, const std::function<void(const output::FileTarget&)>& write) {
     const TemporaryFolder folder;
     write(folder / name);
     test_.update.keep(name);
@@ -112,9 +111,10 @@ void EntryMotion::judge_numbers(const std::string& name, const std::function<voi
     read(
         [&] {
             if (!test_.references.has(name)) return add_missing("");
-            const auto motion = read_record(test_.references, RecordNames(0));
-            const MotionVerdict found = compare_numbers(test_.references.file(name), folder / name, test_.tolerance,
-                                                        motion ? motion->reproducible_until : std::nullopt);
+            Numbers expected = read_numbers(test_.references.file(name));
+            if (const auto motion = read_record(test_.references, RecordNames(0)))
+                expected.reproducible_until = motion->reproducible_until;
+            const MotionVerdict found = compare(expected, read_numbers(folder / name), test_.tolerance);
             verdict = found.verdict;
             add(found, "");
         },

@@ -32,7 +32,7 @@ class EntryMotion {
     void judge_sweep(int threads, Progress& progress);
 
     // The file of an output with other numbers; `write` writes it.
-    void judge_numbers(const std::string& name, const std::function<void(const output::Target&)>& write);
+    void judge_numbers(const std::string& name, const std::function<void(const output::FileTarget&)>& write);
 
   private:
     // Adds a message on unsettled points. Throws SceneError if there are no others.

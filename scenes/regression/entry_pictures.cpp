@@ -81,7 +81,7 @@ fs::path EntryPictures::write(long frame, const char* kind, const output::Raster
     const fs::path path = *test_.report / report_picture(test_.entry.name, frame, kind);
     output::require_within(path, *test_.report);
     output::ensure_directory(path.parent_path());
-    output::Target target = test_.report_files.target(path);
+    output::FileTarget target = test_.report_files.target(path);
     target.within = *test_.report;
     output::write_file(target, output::encode_png(output::to_image(picture)), output::Durability::buffered);
     return path;

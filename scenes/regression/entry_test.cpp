@@ -91,7 +91,7 @@ void EntryTest::request_record() {
 }
 
 void EntryTest::request_compared_records() {
-    for (const Pictures& p : plan_.pictures)
+    for (const PlannedPictures& p : plan_.pictures)
         for (std::size_t i = 0; i < p.compare.size(); ++i) {
             MotionRequest& other = plan_.motions[p.motions[i]];
             other.request.tables.push_back(motion_behind_picture(other.problem, p.end_time));
@@ -109,7 +109,7 @@ void EntryTest::judge(MotionPool& pool, const RunOptions& options) {
         require_reproducible(run, until_);
     if (needs_motion()) {
         motion_.judge(0, "", run.tables[recorded_], run.impacts, until_, run.reproducible_until);
-        for (const Pictures& p : plan_.pictures)
+        for (const PlannedPictures& p : plan_.pictures)
             for (std::size_t i = 0; i < p.compare.size(); ++i) {
                 const sim::Result& other = results[p.motions[i]];
                 require_reproducible(other, p.end_time);
@@ -119,7 +119,7 @@ void EntryTest::judge(MotionPool& pool, const RunOptions& options) {
     }
     judge_numbers(run);
     DrawCallbacks callbacks{
-        [&](const Pictures&, long frame, const render::Image& image) { pictures_.judge(frame, image); },
+        [&](const PlannedPictures&, long frame, const render::Image& image) { pictures_.judge(frame, image); },
         [&](const render::Image& image) { pictures_.judge(0, image); }};
     scenes::draw(plan_, test_.entry.scene, std::move(results), callbacks, options);
     if (test_.result.picture) pictures_.conclude();
@@ -129,7 +129,7 @@ void EntryTest::judge(MotionPool& pool, const RunOptions& options) {
 void EntryTest::judge_numbers(const sim::Result& run) {
     const std::string name = test_.entry.numbers_file();
     if (name.empty()) return;
-    motion_.judge_numbers(name, [&](const output::Target& file) {
+    motion_.judge_numbers(name, [&](const output::FileTarget& file) {
         const output::Work work;
         for (const DataFile& data : plan_.data)
             write_data(data, {test_.entry.scene, run_request(), run, work, &file, nullptr});
@@ -158,7 +158,7 @@ void EntryTest::require_reproducible(const sim::Result& motion, double until) co
 
 double EntryTest::last_shown() const {
     double last = 0;
-    for (const Pictures& p : plan_.pictures)
+    for (const PlannedPictures& p : plan_.pictures)
         for (const double t : p.times.frames) last = std::max(last, t);
     return last;
 }

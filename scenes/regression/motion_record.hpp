@@ -1,33 +1,23 @@
 // The record of an entry's motion: a small table up to the last instant that the entry shows, the impacts until then,
-// and the time up to which the motion is reproducible. It is compared impact by impact.
+// and the time up to which the motion is reproducible.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "output/data/tables.hpp"
-#include "scenes/regression/comparison.hpp"
+#include "scenes/regression/numbers.hpp"
 #include "scenes/regression/references.hpp"
-#include "scenes/regression/tolerance.hpp"
 #include "sim/run/simulate.hpp"
 
 namespace beamcam::scenes {
-
-using ImpactFields = std::vector<std::pair<std::string, std::optional<double>>>;  // in the order of the file
-
-struct MotionRecord {
-    output::ColumnTable table;
-    std::vector<ImpactFields> impacts;
-    std::optional<double> reproducible_until;  // [s]; absent: to the end
-};
 
 // The table that is recorded of the motion in a picture: angle and deflection, in 200 steps up to the last instant.
 sim::TableRequest motion_behind_picture(const sim::Problem& problem, double until);
 
 // The part of the run up to `until`. An impact that lasts longer is recorded with its values at the touch.
-MotionRecord record_of(const sim::Table& table, const std::vector<sim::Impact>& impacts, double until);
+Numbers record_of(const sim::Table& table, const std::vector<sim::Impact>& impacts, double until);
 
 // Names of the two files of a motion: 0 is the motion of the scene; the motions that its picture compares follow.
 struct RecordNames {
@@ -37,23 +27,8 @@ struct RecordNames {
 void put_record(ReferenceUpdate& update, const RecordNames& names, const sim::Table& table,
                 const std::vector<sim::Impact>& impacts, double until, std::optional<double> reproducible_until);
 // Nothing if the folder has no record. Throws IoError if the record is damaged.
-std::optional<MotionRecord> read_record(const References& references, const RecordNames& names);
-
-struct MotionVerdict {
-    Verdict verdict = Verdict::identical;
-    std::vector<std::string> lines;  // the differences, the largest first; empty if identical
-};
-
-// Up to the horizon of the expected motion, differences within the tolerance are equivalent; after it the motions are
-// not comparable, and any difference is equivalent.
-MotionVerdict compare(const MotionRecord& expected, const MotionRecord& actual, const Tolerance& tolerance);
-
-// A difference in multiples of the tolerance, and its message.
-struct Finding {
-    double excess;
-    std::string line;
-};
-// The verdict on records that are not identical.
-MotionVerdict verdict_of(std::vector<Finding> findings);
+std::optional<Numbers> read_record(const References& references, const RecordNames& names);
+// The numbers in a file that ends in .csv or .json, as outputs write it. Throws IoError if it is damaged.
+Numbers read_numbers(const std::filesystem::path& file);
 
 }  // namespace beamcam::scenes

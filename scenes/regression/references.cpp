@@ -111,7 +111,7 @@ ReferenceUpdate::Changes ReferenceUpdate::carry_out(const References& references
     // The digests come first: they make the folder one of references, also if this run is killed.
     std::ranges::stable_partition(changes.written, [](const std::string& name) { return name == kDigestsFile; });
     for (const std::string& name : changes.written) {
-        output::Target target(references.file(name));
+        output::FileTarget target(references.file(name));
         target.within = root;
         output::write_file(target, changed_.at(name));
     }

@@ -134,7 +134,7 @@ void write_page(const fs::path& folder, const RegressionResult& result, const st
                 output::FileList& file_list) {
     output::ensure_directory(folder);
     const auto write = [&](const char* name, const std::string& text) {
-        output::Target target = file_list.target(folder / name);
+        output::FileTarget target = file_list.target(folder / name);
         target.within = folder;
         output::write_file(target, text);
     };

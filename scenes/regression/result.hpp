@@ -57,7 +57,7 @@ struct EntryResult {
     }
 };
 
-// Which verdicts pass.
+// The rule by which verdicts pass.
 struct PassRule {
     bool strict = false;  // only identical pictures and motions pass
     bool passes(Verdict verdict) const {

@@ -8,32 +8,20 @@
 #include <set>
 #include <utility>
 
+#include "output/files/numbers.hpp"
+#include "output/image/picture_files.hpp"
+
 namespace beamcam::scenes {
 namespace {
+
+using output::NumberedName;
 
 std::string normal(std::string_view file) { return std::filesystem::path(file).lexically_normal().generic_string(); }
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-struct Pattern {
-    std::string before, after;
-};
-Pattern split_pattern(std::string_view file) {
-    const std::size_t begin = file.find('#'), end = file.find_last_of('#') + 1;
-    return {std::string(file.substr(0, begin)), std::string(file.substr(end))};
-}
-
-bool matches(const Pattern& pattern, std::string_view file) {
-    if (file.size() <= pattern.before.size() + pattern.after.size() || !file.starts_with(pattern.before) ||
-        !file.ends_with(pattern.after))
-        return false;
-    const std::string_view digits =
-        file.substr(pattern.before.size(), file.size() - pattern.before.size() - pattern.after.size());
-    return std::ranges::all_of(digits, is_digit);
-}
-
 std::string pattern_of(std::string_view file) {
-    const Pattern parts = split_pattern(normal(file));
+    const NumberedName parts(normal(file));
     return parts.before + '#' + parts.after;
 }
 
@@ -111,19 +99,15 @@ std::string problem_with_numbering(std::string_view file) {
 
 std::string numbered_file(std::string_view pattern, long number) {
     const auto width = static_cast<std::size_t>(std::count(pattern.begin(), pattern.end(), '#'));
-    const Pattern parts = split_pattern(pattern);
+    const NumberedName parts(pattern);
     return fmt::format("{}{:0{}}{}", parts.before, number, width, parts.after);
 }
 
 std::optional<long> number_of(std::string_view pattern, std::string_view file) {
-    const Pattern parts = split_pattern(pattern);
-    if (!matches(parts, file)) return {};
-    const std::string_view digits =
-        file.substr(parts.before.size(), file.size() - parts.before.size() - parts.after.size());
-    if (digits.size() > 9) return {};  // no sequence is that long
-    long number = 0;
-    for (const char digit : digits) number = 10 * number + (digit - '0');
-    return numbered_file(pattern, number) == file ? std::optional(number) : std::nullopt;
+    const NumberedName parts(pattern);
+    const auto digits = parts.number_in(file);
+    const auto number = output::number_in<long>(digits.value_or(""));
+    return number && numbered_file(pattern, *number) == file ? number : std::nullopt;
 }
 
 void FileClaims::add(std::string_view file, std::size_t owner) { claims_.push_back({std::string(file), owner}); }

@@ -95,7 +95,7 @@ std::vector<render::Callout> callouts_of(const std::vector<ShownEvent>& shown, c
     return out;
 }
 
-// With a duration the speed is constant in the time outside of freezes and hold.
+// A given duration makes the speed constant in the time outside of freezes and hold.
 Speed speed_of(const FrameSpan& span, double to, const sim::Result& motion) {
     if (!span.duration) {
         Speed speed = span.speed;

@@ -30,8 +30,8 @@ struct FilmTimes {
 // Why a span has no frames, or too many; empty if it is valid, as far as that is known before the motion.
 std::string problem_with_span(const FrameSpan& span, double end_time);
 std::string pauses_fill(const FrameSpan& span);  // that problem of a span with a duration
-// With times in place of events at its ends. Throws render::PictureError for an event that does not occur, and for a
-// span without frames.
+// Returns the span with times in place of events at its ends. Throws render::PictureError for an event that does not
+// occur, and for a span without frames.
 FrameSpan resolved(const FrameSpan& span, double end_time, const sim::Result& motion);
 
 // The number of frames of a film of this length in film time. Throws render::PictureError if it has none or too many.

@@ -1,4 +1,4 @@
-// Which frames a film in real time has.
+// The frames of a film in real time.
 #include <fmt/format.h>
 
 #include <cmath>

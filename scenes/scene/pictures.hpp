@@ -1,4 +1,4 @@
-// What pictures and films of the mechanism show: instants, views, speeds.
+// The instants, views and speeds that pictures and films of the mechanism show.
 #pragma once
 
 #include <memory>
@@ -48,8 +48,8 @@ std::string name_of(const Instant& at);  // "impact 3", "0.2 s"
 // The playback speed of a film.
 struct SlowMotion {
     double factor = 0.02;  // of real time, around impacts
-    // In seconds of the motion: slow motion from `before` the first touch of an impact to `after` its release, with a
-    // transition of `ease` on both sides.
+    // Seconds of the motion: slow motion lasts from `before` the first touch of an impact to `after` its release, with
+    // a transition of `ease` on both sides.
     double before = 2e-3, after = 10e-3, ease = 20e-3;
     std::vector<double> collisions = {};  // only around the impacts of these, counted from 1; empty: all
     bool operator==(const SlowMotion&) const = default;

@@ -23,7 +23,7 @@ void make_points(const SweepGrid& grid, const Shard& shard, int threads, Progres
 // state of a beam.
 std::optional<sim::InitialState> end_of(const output::StoredPoint& point);
 
-// What the points of a sweep have in common.
+// The part that all points of a sweep share.
 output::PointShape shape_of(const SweepGrid& grid);
 
 // The head of a file with the points of a part; its description is JSON: "part" ("2/3"), "program", "sweep" (the digest

@@ -29,7 +29,7 @@ std::vector<double> values_of(const SweptKey& over) {
     return values;
 }
 
-// The same numbers on every machine: SplitMix64 (Steele, Lea & Flood 2014) from point and key, 0 … 1.
+// Random numbers that are the same on every machine: SplitMix64 (Steele, Lea & Flood 2014) from point and key, 0 … 1.
 double random_share(std::uint64_t point, std::uint64_t key) {
     std::uint64_t z = (point + 1) * 0x9e3779b97f4a7c15 + (key + 1) * 0xd1b54a32d192ed03;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "scenes/figures/studies.hpp"
+#include "scenes/figures/motion_requests.hpp"
 #include "scenes/sweep/make_points.hpp"
 
 namespace beamcam::scenes {
@@ -20,8 +20,8 @@ class SweepRun {
     std::uint64_t points_there() const { return store_.count(); }
     void make(int threads, Progress& progress);  // see make_points
     const SweepGrid& grid() const { return grid_; }
-    const output::SweepData& data() const { return data_; }   // valid during the lifetime of this
-    Swept swept() const { return {&grid_.scene(), &data_}; }  // for figures
+    const output::SweepData& data() const { return data_; }          // valid during the lifetime of this
+    SweepResult result() const { return {&grid_.scene(), &data_}; }  // for figures
     output::StoredPoint read(std::uint64_t point) const { return store_.read(point); }
     // "601 points in 1.2 s: 24 following, 577 periodic", and the failures.
     std::string summary() const;

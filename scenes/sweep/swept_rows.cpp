@@ -9,7 +9,7 @@
 
 #include "output/data/file_list.hpp"
 #include "output/data/table_reader.hpp"
-#include "scenes/figures/studies.hpp"
+#include "scenes/figures/motion_requests.hpp"
 #include "scenes/format/reader.hpp"
 #include "scenes/motions/identity.hpp"
 #include "scenes/scene/exit_code.hpp"

@@ -1,4 +1,4 @@
-// What the search of periodic orbits takes from keys of a scene and from the table of a sweep: the problem at a value,
+// The search of periodic orbits takes these from keys of a scene and from the table of a sweep: the problem at a value,
 // impacts to plot, and an initial state.
 #pragma once
 

@@ -45,7 +45,7 @@ std::string swept(const char* beam, const char* contact, const char* range, cons
 void points(const char* name, const std::string& text, int threads, const fs::path& folder) {
     const scenes::Reading reading = scenes::read_scene({"benchmark", text, true});
     const scenes::SweepGrid grid(*reading.scene);
-    output::PointStore store(folder / "points.part", grid.points(), "benchmark");
+    output::PointStore store(folder / "points.part", shape_of(grid), head_of(grid, {}));
     scenes::Progress progress(scenes::ProgressStyle::none);
     const Stopwatch watch;
     make_points(grid, {}, threads, progress, store);
@@ -93,7 +93,7 @@ void table(const char* ending, std::uint64_t rows, const fs::path& folder) {
     const output::SweepData data = made_up(rows);
     const fs::path file = folder / (std::string("table") + ending);
     const Stopwatch watch;
-    write_sweep(output::Target(file), data);
+    write_sweep(output::FileTarget(file), data);
     const double cpu = watch.cpu(), wall = watch.wall();
     fmt::print("{},{},8,{:.2f},{:.2f},{:.0f},{:.0f}\n", ending, data.rows_in_all(), cpu, wall,
                1e-6 * static_cast<double>(fs::file_size(file)), peak_mebibytes());

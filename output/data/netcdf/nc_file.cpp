@@ -11,8 +11,6 @@ namespace beamcam::output {
 
 namespace {
 
-constexpr int kDeflate = 1;  // higher levels take three times as long for a few per cent
-
 // "rad s-1" of "rad/s".
 std::string udunits(const std::string& unit) {
     if (unit == "rad/s") return "rad s-1";
@@ -62,8 +60,12 @@ int NcFile::define_filled(const std::string& name, int type, const std::vector<i
     if (type == NC_INT) fill = &number;
     if (type == NC_BYTE) fill = &byte;
     need(nc_def_var_fill(id, variable, NC_FILL, fill));
-    need(nc_def_var_deflate(id, variable, 1, 1, kDeflate));
     return variable;
+}
+
+void NcFile::compress(int variable) const {
+    constexpr int kDeflate = 1;  // higher levels take three times as long for a few per cent
+    need(nc_def_var_deflate(id, variable, 1, 1, kDeflate));
 }
 
 void NcFile::set(int variable, const char* attribute, const std::string& value) const {

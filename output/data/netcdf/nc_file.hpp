@@ -26,9 +26,10 @@ class NcFile {
     // Defines a variable over these dimensions.
     int define(const std::string& name, int type, const std::vector<int>& dimensions, const std::string& unit,
                const std::string& meaning) const;
-    // The same, compressed, with a fill value for what is not written.
+    // Defines a variable with a fill value for cells that are not written.
     int define_filled(const std::string& name, int type, const std::vector<int>& dimensions, const std::string& unit,
                       const std::string& meaning) const;
+    void compress(int variable) const;
     void set(int variable, const char* attribute, const std::string& value) const;
 
     std::filesystem::path named;

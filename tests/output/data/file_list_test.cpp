@@ -212,7 +212,7 @@ TEST(FileList, WhicheverOfTwoVersionsAKillLeavesIsOnesOwn) {
         Scratch scratch;
         make(scratch / "a.csv", "first");
         killed([&](FileList& files) {
-            Target target = files.target(scratch / "a.csv");
+            FileTarget target = files.target(scratch / "a.csv");
             if (!renamed)
                 target.before_rename = [record = target.before_rename](const fs::path& temporary) {
                     record(temporary);

@@ -100,7 +100,7 @@ TEST(AtomicFile, NoLinkLeadsItOutOfTheFolderItMustLieIn) {
     fs::create_symlink(elsewhere / "b.txt", folder / "b.txt");
     fs::create_symlink("sub", folder / "inside");
     for (const char* name : {"link/a.txt", "b.txt", "inside/../link/a.txt"}) {
-        Target target(folder / name);
+        FileTarget target(folder / name);
         target.within = folder;
         const std::string message = message_of([&] { write_file(target, "x"); });
         EXPECT_NE(message.find("symbolic link leads it out of"), std::string::npos) << name << ": " << message;
@@ -108,7 +108,7 @@ TEST(AtomicFile, NoLinkLeadsItOutOfTheFolderItMustLieIn) {
     }
     EXPECT_NE(message_of([&] { require_within(folder / "link/new/a.txt", folder); }), "no error");
     EXPECT_TRUE(fs::is_empty(elsewhere));
-    Target target(folder / "inside/a.txt");
+    FileTarget target(folder / "inside/a.txt");
     target.within = folder;
     write_file(target, "x");
     EXPECT_EQ(read_file(folder / "sub/a.txt"), "x");
@@ -122,7 +122,7 @@ TEST(AtomicFile, ALinkThatAppearsMeanwhileLeadsNowhere) {
     Scratch scratch;
     fs::create_directories(scratch / "out/sub");
     fs::create_directory(scratch / "elsewhere");
-    Target target(scratch / "out/sub/a.txt");
+    FileTarget target(scratch / "out/sub/a.txt");
     target.within = scratch / "out";
     AtomicFile file(target);
     file.write("x");

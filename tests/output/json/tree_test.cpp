@@ -34,7 +34,7 @@ TEST(Tree, KeysAndValuesHavePositions) {
     const std::string text = "{\n  \"α\": \"x\", \"b\" : [ -1.5e3, {\"c\": true}, \"\\\"]\" , null],\n\t\"d\":{}}";
     const Parsed parsed = parse(text);
     ASSERT_TRUE(parsed.is_json);
-    auto at = [&](const Place& place) {
+    auto at = [&](const SourcePosition& place) {
         const LineColumn where = locate(text, place.offset);
         return std::to_string(where.line) + ":" + std::to_string(where.column);
     };

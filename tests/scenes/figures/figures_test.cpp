@@ -43,7 +43,8 @@ TEST(Figures, ShareOneSimulationWithEachOtherAndWithTables) {
     const Plan p = plan(resolve(scene, {}));
     ASSERT_EQ(p.motions.size(), 4u);
     for (const MotionRequest& each : p.motions) EXPECT_EQ(each.key, p.motions.front().key);
-    EXPECT_TRUE(std::ranges::any_of(p.motions, [](const MotionRequest& each) { return each.request.horizon; }));
+    // Curves of the angle alone are paler where θ is not reproducible.
+    EXPECT_EQ(std::ranges::count_if(p.motions, [](const MotionRequest& each) { return each.request.horizon; }), 1);
 }
 
 TEST(Figures, EqualPhysicsIsOneMotion) {
@@ -196,7 +197,8 @@ TEST(Presets, WithMistakesAreReported) {
         EXPECT_NE(made.code, 0) << preset;
         return made.err;
     };
-    EXPECT_THAT(refusal(R"({"figure": "series", "channels": ["theta"], "fom": 0.1})"), HasSubstr("unknown key \"fom\""));
+    EXPECT_THAT(refusal(R"({"figure": "series", "channels": ["theta"], "fom": 0.1})"),
+                HasSubstr("unknown key \"fom\""));
     EXPECT_THAT(refusal(R"({"figure": "serious", "channels": ["theta"]})"),
                 HasSubstr("there is no figure \"serious\""));
     EXPECT_THAT(refusal(R"({"channels": ["thetta"]})"), HasSubstr("did you mean \"theta\"?"));
@@ -365,16 +367,13 @@ TEST(Figures, OptionsOfOtherFiguresAreNamedAsTheyWereGiven) {
 }
 
 TEST(Figures, AskWhetherTheVariantsTheyComputeArePossible) {
-    // A type that removes the cam without asking.
-    const FigureType careless{"careless", "", no_refusal,
-                              [](const Scene& s, const FigureOutput&, Studies& studies) -> FigureDrawing {
-                                  studies.of(without_cam(s.problem), s.end_time);
-                                  return {};
-                              }};
-    const auto why = refusal_of(careless, scene_from(R"({"initial": {"shape": "resting"}})"));
+    const auto without = [](const std::string& text) {
+        return refusal_of_variants({without_cam(scene_from(text).problem)});
+    };
+    const auto why = without(R"({"initial": {"shape": "resting"}})");
     ASSERT_TRUE(why);
     EXPECT_THAT(*why, HasSubstr("initial.shape"));
-    EXPECT_FALSE(refusal_of(careless, scene_from("{}")));
+    EXPECT_FALSE(without("{}"));
 }
 
 TEST(Figures, WhatASceneHasNotIsReported) {

@@ -380,6 +380,7 @@ TEST(Overviews, KeysOfOtherFiguresAreRejectedWithTheNamesOfThese) {
                                                          {"notes", "[]"},
                                                          {"impacts", "true"},
                                                          {"residuals", "false"},
+                                                         {"horizon", "true"},
                                                          {"value", "\"class\""}};
     for (const FigureType& type : figure_types())
         for (const std::string_view key : keys_of_figures()) {

@@ -139,7 +139,7 @@ TEST(Series, LimitsThatHideAllCurvesAreReported) {
     EXPECT_THAT(figure("--low 59deg").err, Not(HasSubstr("warning")));
     const Finished wrong = figure("--x theta_dot --x-low 1mm");
     EXPECT_EQ(wrong.code, 2);
-    EXPECT_THAT(wrong.err, HasSubstr("--x-low: x_low = \"1mm\" has the wrong dimension (m); it is measured in rad/s"));
+    EXPECT_THAT(wrong.err, HasSubstr("--x-low = \"1mm\" has the wrong dimension (m); it is measured in rad/s"));
 }
 
 TEST(Series, LimitsOfATimeAxisSelectWhatIsDrawn) {
@@ -303,7 +303,6 @@ TEST(Measured, DataAreDrawnAndJudged) {
     };
     EXPECT_EQ(number("rows"), 5);
     EXPECT_NEAR(number("rms"), std::sqrt((3 * 1e-4 + 2 * 9e-4) / 5), 1e-9);
-    EXPECT_NEAR(number("largest"), -0.03, 1e-9);
     // The same with data that changed is not up to date.
     EXPECT_THAT(shell(folder, "$BEAMCAM run m.json -o . 2>&1").out, Not(HasSubstr("wrote")));
     folder.write("rig.csv", rig + "490,20,1\n");

@@ -13,12 +13,12 @@
 namespace beamcam::scenes::testing {
 
 inline render::figure::Figure simulated(const Scene& scene, const FigureOutput& how) {
-    Studies studies;
-    const FigureMaker make = figure_type(how.figure)->prepare(scene, how, studies);
+    MotionRequests requests;
+    const FigureMaker make = figure_type(how.figure)->prepare(scene, how, requests);
     std::vector<sim::Result> made;
-    for (const MotionRequest& study : studies.take()) made.push_back(sim::simulate(study.problem, study.request));
-    Results results;
-    for (const sim::Result& result : made) results.studies.push_back(&result);
+    for (const MotionRequest& motion : requests.take()) made.push_back(sim::simulate(motion.problem, motion.request));
+    MotionResults results;
+    for (const sim::Result& result : made) results.motions.push_back(&result);
     return make(results);
 }
 

@@ -38,8 +38,8 @@ render::figure::Figure diagram(const char* name, const SweepGrid& grid, const ou
     FigureOutput how;
     how.value = value;
     how.lang = lang;
-    Studies none;
-    return figure_type(name)->prepare(grid.scene(), how, none)({.swept = Swept{&grid.scene(), &data}});
+    MotionRequests none;
+    return figure_type(name)->prepare(grid.scene(), how, none)({.sweep = SweepResult{&grid.scene(), &data}});
 }
 
 // Each point of these classes has two samples.

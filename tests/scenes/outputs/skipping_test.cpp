@@ -207,7 +207,7 @@ TEST(Skipping, FiguresShareOneMotionAndFinishedOnesAreLeftAlone) {
     const Folder folder;
     folder.write("s.json", scene(kFigures));
     const Finished first = shell(folder, "$BEAMCAM run -v s.json");
-    EXPECT_EQ(count(first, "integrations"), 2);  // the motion, and one with which its horizon is compared
+    EXPECT_EQ(count(first, "integrations"), 1);  // neither shows where θ is reproducible
     EXPECT_EQ(count(first, "figures_drawn"), 2);
     for (const char* what : {"gl_contexts", "encoder_modules", "frames_drawn"})
         EXPECT_EQ(count(first, what), 0) << what;
