@@ -26,10 +26,7 @@ void blend(cairo_t* cr, const Image& source, int x, int y, std::span<const Box> 
     cairo_surface_destroy(surface);
 }
 
-// Widths relative to the size of the letters: of a text's own halo, and of the outline of all texts with its glow.
-constexpr double kHalo = 0.30, kOutline = 0.14;
-constexpr std::array kGlow{0.48, 0.30};
-constexpr double kGlowOpacity = 0.4;
+constexpr double kHalo = 0.30;  // width relative to the size of the letters
 
 // Rounded outwards to whole pixels within the source.
 Box whole_part(const Image& source, const Box& part) {
@@ -82,15 +79,6 @@ void Canvas::image_tiles(const Image& source, int x, int y, const DirtyTiles& ti
     if (touched) touched->add(tiles);
 }
 
-void Canvas::paint_pixels(const std::function<void(const PixelView&, DirtyTiles*)>& paint) {
-    if (limit_) throw std::logic_error("Canvas::paint_pixels: not allowed within a clip");
-    cairo_surface_t* surface = cairo_get_target(cr_);
-    cairo_surface_flush(surface);
-    auto* pixels = reinterpret_cast<std::uint32_t*>(cairo_image_surface_get_data(surface));
-    paint({pixels, image_.width, image_.height, image_.width}, touched);
-    cairo_surface_mark_dirty(surface);
-}
-
 // Glyphs are placed at whole pixels. Cairo rounds points to 1/256 px first; the runs of a text share this rounding,
 // else they might be in different rows.
 Vec2 Canvas::rounded_start(Vec2 at, const SetLabel& label, const TextStyle& style) {
@@ -114,10 +102,10 @@ Box Canvas::text(Vec2 at, std::string_view markup, const TextStyle& style) {
     Box ink = label.ink.box();
     ink.x += at.x, ink.y += at.y;
     std::optional<Color> halo = style.halo;
-    if (outline) halo = outline->faded(style.color.a);
+    if (halo_of_all) halo = halo_of_all->faded(style.color.a);
     if (halo && halo->faded(0) == style.color.faded(0))
         halo.reset();  // a halo of the same colour would only thicken the letters
-    const double wide = (outline ? kOutline : kHalo) * style.size;
+    const double wide = kHalo * style.size;
     if (halo) {
         for (const SetRun& run : label.runs) {
             PangoLayout* letters = layout_of(*fonts_, run, style);
@@ -125,16 +113,10 @@ Box Canvas::text(Vec2 at, std::string_view markup, const TextStyle& style) {
             cairo_move_to(cr_, from.x, from.y - baseline_of(letters));
             pango_cairo_layout_path(cr_, letters);
         }
-        uncased([&] {
-            // Wide and faint under narrow and strong: the outline fills the inside of small letters softly.
-            if (outline)
-                for (const double glow : kGlow) stroke_path({halo->faded(kGlowOpacity), glow * style.size}, false);
-            stroke({*halo, wide});
-        });
+        stroke({*halo, wide});
     }
     draw_label(label, rounded_start(at, label, style), style);
-    const double reach = halo && outline ? kGlow[0] * style.size : wide;
-    mark_painted(ink.inset(halo ? -1 - reach / 2 : -1));
+    mark_painted(ink.inset(halo ? -1 - wide / 2 : -1));
     if (record && !label.runs.empty()) record->push_back(ink);
     return {at.x, ink.y, label.width, ink.h};
 }
@@ -142,11 +124,6 @@ Box Canvas::text(Vec2 at, std::string_view markup, const TextStyle& style) {
 Box Canvas::measure(std::string_view markup, const TextStyle& style) const {
     const SetLabel label = set_text(*fonts_, markup, style);
     return {0, label.ink.box().y, label.width, label.ink.box().h};
-}
-
-void outline_on(Canvas& canvas, const Palette& palette, double unit) {
-    canvas.outline = palette.outline();
-    if (canvas.outline) canvas.casing = Casing{*canvas.outline, 3 * unit};
 }
 
 std::string first_that_fits(Canvas& canvas, std::initializer_list<std::string> texts, const TextStyle& style,

@@ -10,7 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include "render/draw/area.hpp"
 #include "render/draw/color.hpp"
 #include "render/draw/fonts.hpp"
 #include "render/draw/geometry.hpp"
@@ -32,8 +31,6 @@ class Canvas : public Painter {
     void image_part(const Image& source, int x, int y, const Box& part);
     // Blends `source` within these tiles of the picture.
     void image_tiles(const Image& source, int x, int y, const DirtyTiles& tiles);
-    // Gives `paint` direct access to the pixels; it must mark the tiles that it changes. Not allowed within `clip`.
-    void paint_pixels(const std::function<void(const PixelView&, DirtyTiles* touched)>& paint);
 
     // Returns the ink of the text, as wide as its advance.
     Box text(Vec2 baseline, std::string_view markup, const TextStyle& style) override;
@@ -41,8 +38,8 @@ class Canvas : public Painter {
     const Fonts& fonts() const { return *fonts_; }
     const Image& image() const { return image_; }  // as drawn so far
 
-    // Outline of all texts instead of their own halos, for pictures without paper.
-    std::optional<Color> outline = {};
+    // The colour of a halo of all texts, for pictures without paper; null: texts have the halos of their styles.
+    std::optional<Color> halo_of_all = {};
     std::vector<Box>* record = nullptr;  // collects the ink boxes of drawn texts
 
   private:
@@ -51,9 +48,6 @@ class Canvas : public Painter {
 
     const Image& image_;
 };
-
-// Sets the outlines of texts and lines in pictures without paper. `unit`: of lengths [px].
-void outline_on(Canvas& canvas, const Palette& palette, double unit);
 
 // The first of the texts that is no wider than `room`; the last one if none is.
 std::string first_that_fits(Canvas& canvas, std::initializer_list<std::string> texts, const TextStyle& style,

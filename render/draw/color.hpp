@@ -52,8 +52,8 @@ struct Palette {
 
     // A colour diluted to this share on the paper.
     Color tint(Color c, double share) const { return transparent ? c.faded(share) : mix(paper, c, share); }
-    // Colour of the outlines of texts and lines that makes them readable on any background; null: there is paper.
-    std::optional<Color> outline() const { return transparent ? std::optional(paper.faded(0.9)) : std::nullopt; }
+    // Colour of the halo that makes texts readable on any background; null: there is paper.
+    std::optional<Color> halo_of_all() const { return transparent ? std::optional(paper.faded(0.9)) : std::nullopt; }
     // The palette of a film without paper: pale colours get alpha, so that they look the same over this paper and right
     // over other backgrounds.
     Palette without_paper() const;

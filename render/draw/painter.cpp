@@ -55,51 +55,11 @@ void Painter::mark_painted(const Box& box) {
     if (!within.empty()) touched->add(within);
 }
 
-namespace {
-
-void append(std::string& key, std::span<const double> numbers) {
-    key.append(reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes());
-}
-
-// Everything that identifies the path.
-std::string key_of_path(cairo_t* cr) {
-    cairo_path_t* const path = cairo_copy_path(cr);
-    std::string key;
-    for (int i = 0; i < path->num_data; i += path->data[i].header.length) {
-        key += static_cast<char>('0' + path->data[i].header.type);
-        for (int k = 1; k < path->data[i].header.length; ++k) {
-            const auto& [x, y] = path->data[i + k].point;
-            append(key, std::array{x, y});
-        }
-    }
-    cairo_path_destroy(path);
-    return key;
-}
-
-Box box_of_path(cairo_t* cr) {
+void Painter::mark_path(double around) {
+    if (!touched || !cairo_has_current_point(cr_)) return;
     double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-    cairo_path_extents(cr, &x0, &y0, &x1, &y1);
-    return {x0, y0, x1 - x0, y1 - y0};
-}
-
-}  // namespace
-
-void Painter::paint_path(Color color, double around, bool cached, std::initializer_list<double> how,
-                         std::span<const double> dash, const std::function<void(cairo_t*)>& paint) {
-    bool painted = false;
-    if (touched && cairo_has_current_point(cr_)) {
-        const Box box = box_of_path(cr_).inset(-around);
-        mark_painted(box);
-        if (cached && coverage_cache && !limit_) {
-            std::string key = key_of_path(cr_);
-            append(key, how);
-            append(key, dash);
-            painted = coverage_cache->paint(key, box.inset(-2), color, cr_, paint);
-        }
-    }
-    if (painted) return;
-    set_source(color);
-    paint(cr_);
+    cairo_path_extents(cr_, &x0, &y0, &x1, &y1);
+    mark_painted(Box{x0, y0, x1 - x0, y1 - y0}.inset(-around));
 }
 
 // ---- paths -------------------------------------------------------------------------------------
@@ -149,11 +109,6 @@ void Painter::arrow(Vec2 from, Vec2 to, const Pen& pen, const ArrowHead& head) {
         line_to(to - u * tip - v * (head.half_width * tip));
         close();
     };
-    if (casing) {
-        add_head();
-        stroke_path({casing->color, casing->width, {}, Cap::butt}, false);
-        new_path();
-    }
     if (length > tip) line(from, to - u * (0.8 * tip), {pen.color, pen.width, pen.dash, Cap::butt});
     add_head();
     fill(pen.color);
@@ -166,27 +121,50 @@ void Painter::fill(Color c) {
     new_path();
 }
 void Painter::fill_keeping_path(Color c) {
-    // Translucent fills are faster in Cairo than from cached coverage.
-    paint_path(c, 0, c.a == 1, {}, {}, cairo_fill_preserve);
+    mark_path(0);
+    set_source(c);
+    cairo_fill_preserve(cr_);
 }
 void Painter::new_path() { cairo_new_path(cr_); }
+
+// The path's box would be far larger than what is painted of a slanted body: each edge marks its own.
+void Painter::fill_between(std::span<const Vec2> outer, std::span<const Vec2> inner, Color color) {
+    for (std::size_t i = 0; i < outer.size(); ++i) {
+        const std::size_t next = (i + 1) % outer.size();
+        Bounds edge;
+        for (const Vec2 p : {outer[i], outer[next], inner[i], inner[next]}) edge.add(p);
+        mark_painted(edge.box());
+    }
+    polyline(outer);
+    close();
+    const std::vector<Vec2> back(inner.rbegin(), inner.rend());
+    polyline(back);
+    close();
+    set_source(color);
+    cairo_fill(cr_);
+}
+
+void Painter::fill_piece(std::span<const Vec2> corners, Color color) {
+    polyline(corners);
+    close();
+    mark_path(0);
+    set_source(color);
+    cairo_set_antialias(cr_, CAIRO_ANTIALIAS_NONE);
+    cairo_fill(cr_);
+    cairo_set_antialias(cr_, CAIRO_ANTIALIAS_DEFAULT);
+}
+
 void Painter::stroke(const Pen& pen) {
-    constexpr double kFaint = 0.5;
-    if (casing && pen.color.a > kFaint && pen.color.faded(0) != casing->color.faded(0))
-        stroke_path(
-            {casing->color.faded((pen.color.a - kFaint) / (1 - kFaint)), pen.width + casing->width, pen.dash, pen.cap},
-            false);
-    stroke_path(pen, true);
+    stroke_path(pen);
     new_path();
 }
-void Painter::stroke_path(const Pen& pen, bool cached) {
-    const double cap = pen.cap == Cap::round ? 1 : 0;
-    paint_path(pen.color, pen.width / 2, cached, {pen.width, cap}, pen.dash, [&](cairo_t* cr) {  // joins are round
-        cairo_set_line_width(cr, pen.width);
-        cairo_set_line_cap(cr, pen.cap == Cap::round ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
-        cairo_set_dash(cr, pen.dash.data(), static_cast<int>(pen.dash.size()), 0);
-        cairo_stroke_preserve(cr);
-    });
+void Painter::stroke_path(const Pen& pen) {
+    mark_path(pen.width / 2);  // joins are round
+    set_source(pen.color);
+    cairo_set_line_width(cr_, pen.width);
+    cairo_set_line_cap(cr_, pen.cap == Cap::round ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
+    cairo_set_dash(cr_, pen.dash.data(), static_cast<int>(pen.dash.size()), 0);
+    cairo_stroke_preserve(cr_);
 }
 void Painter::line(Vec2 from, Vec2 to, const Pen& pen) {
     move_to(from);
@@ -208,12 +186,6 @@ void Painter::clip(const Box& b, const std::function<void()>& draw) {
     draw();
     limit_ = before;
     cairo_restore(cr_);
-}
-
-void Painter::uncased(const std::function<void()>& draw) {
-    const std::optional<Casing> before = std::exchange(casing, std::nullopt);
-    draw();
-    casing = before;
 }
 
 void Painter::place(const Image& image, const Box& into, bool smooth) {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <functional>
-#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,7 +10,6 @@
 #include <vector>
 
 #include "render/draw/color.hpp"
-#include "render/draw/coverage_cache.hpp"
 #include "render/draw/dirty_tiles.hpp"
 #include "render/draw/geometry.hpp"
 
@@ -41,12 +39,6 @@ struct SetLabel;
 struct SetRun;
 struct TextStyle;
 
-// A wider line under every line that is not faint, for pictures without paper.
-struct Casing {
-    Color color;
-    double width = 0;  // added to that of the line
-};
-
 class Painter {
   public:
     Painter(const Painter&) = delete;
@@ -66,24 +58,23 @@ class Painter {
     double cap_height(double size) const;                                            // of capitals and digits
     void fill(Color color);
     void fill_keeping_path(Color color);
+    // Fills the area between an outline and one inside of it, whose corners run the same way.
+    void fill_between(std::span<const Vec2> outer, std::span<const Vec2> inner, Color color);
+    // Paints the pixels of a polygon whose colours meet those of its neighbours: without antialiasing.
+    void fill_piece(std::span<const Vec2> corners, Color color);
     void stroke(const Pen& pen);
     void line(Vec2 from, Vec2 to, const Pen& pen);
     // A line through any number of points; NaN breaks it.
     virtual void curve(std::span<const Vec2> points, const Pen& pen);
     // Clips everything that `draw` draws to the box.
     void clip(const Box& box, const std::function<void()>& draw);
-    // Draws without casings.
-    void uncased(const std::function<void()>& draw);
     // Draws the image into the box, each pixel a rectangle.
     void pixels(const Image& image, const Box& into);
     // Draws the image into the box with smooth scaling.
     void image_fitted(const Image& image, const Box& into);
 
-    std::optional<Casing> casing = {};
     // If set, collects the painted tiles (a superset of the changed pixels).
     DirtyTiles* touched = nullptr;
-    // If this and `touched` are set, paths unchanged since the last picture reuse their coverage.
-    CoverageCache* coverage_cache = nullptr;
 
   protected:
     explicit Painter(const Fonts& fonts) : fonts_(&fonts) {}
@@ -95,7 +86,7 @@ class Painter {
     void set_source(Color color);
     void mark_painted(const Box& box);  // adds its tiles to `touched`, with a pixel of antialiasing
     void new_path();
-    void stroke_path(const Pen& pen, bool cached);  // keeps the path
+    void stroke_path(const Pen& pen);  // keeps the path
     // Draws a label whose baseline starts at `at`.
     void draw_label(const SetLabel& label, Vec2 at, const TextStyle& style);
     // Draws the letters of a run in the colour that is set.
@@ -109,10 +100,7 @@ class Painter {
     cairo_surface_t* surface_ = nullptr;
     int exceptions_ = 0;  // number of active exceptions when drawing began
     void place(const Image& image, const Box& into, bool smooth);
-    // Paints the path, which reaches this far beyond its points, or its cached coverage. `how`: what coverage depends
-    // on beside the path.
-    void paint_path(Color color, double around, bool cached, std::initializer_list<double> how,
-                    std::span<const double> dash, const std::function<void(cairo_t*)>& paint);
+    void mark_path(double around);  // marks what the path reaches, this far beyond its points
 };
 
 }  // namespace beamcam::render

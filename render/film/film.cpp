@@ -68,8 +68,7 @@ struct Film::FrameRenderer {
     Fonts fonts;
     std::vector<std::unique_ptr<FilmPanel::State>> states;
     Image picture;
-    int frame = -1;  // in the picture; < 0: none
-    CoverageCache coverage_cache;
+    int frame = -1;      // in the picture; < 0: none
     DirtyTiles moved;    // where the picture may differ from the background
     DirtyTiles changed;  // where the picture may differ from the previous one
 };
@@ -80,7 +79,7 @@ void Film::Prepared::draw_background() {
     const FilmSetup& setup = *context.setup;
     background = Image(setup.width, setup.height);
     Canvas canvas(background, *context.fonts);
-    context.outline(canvas);
+    canvas.halo_of_all = context.palette->halo_of_all();
     canvas.record = &background_texts;
     if (!setup.view.transparent) canvas.paint(context.palette->paper);
     draw_header(canvas);
@@ -176,11 +175,9 @@ const Image& Film::draw(int frame) {
     copy(prepared_->background, t.picture, t.changed);
     t.moved.clear();
     Canvas canvas(t.picture, t.fonts);
-    prepared_->context.outline(canvas);
+    canvas.halo_of_all = prepared_->context.palette->halo_of_all();
     canvas.touched = &t.moved;
-    if (CoverageCache::exact()) canvas.coverage_cache = &t.coverage_cache;
     prepared_->draw_moving(canvas, frame, prepared_->context.setup->view.style, t.states);
-    t.coverage_cache.next_picture();
     t.changed.add(t.moved);
     t.frame = frame;
     return t.picture;
@@ -199,7 +196,7 @@ FrameGeometry Film::geometry(int frame) {
     FrameGeometry out{p.context.places, {}, {}, p.background_texts};
     Image scratch = p.background;
     Canvas canvas(scratch, t.fonts);
-    p.context.outline(canvas);
+    canvas.halo_of_all = p.context.palette->halo_of_all();
     canvas.record = &out.texts;
     p.draw_moving(canvas, frame, Style::flat, t.states);
     if (p.mechanism) {

@@ -109,10 +109,14 @@ void LitMechanism::draw_solid(const MechanismScene& s, const std::vector<Color>&
     SolidScene scene = solid_scene(s.shape, s.at.palette, s.at.box, inside, s.at.wide, s.at.look.unit, rim);
     // A near camera cuts bodies at the edges of the panel, and their shadows as well.
     scene.fade *= std::clamp(2 - s.at.zoom(), 0.0, 1.0);
-    const double before = gl.read_back;
-    gl.draw(scene, image_);
-    s.at.context.counts->read_back += gl.read_back - before;
-    ++s.at.context.counts->mechanisms_lit;
+    if (SolidPicture now{s.shape, inside, rim}; !(solid_ == now)) {
+        const double before = gl.read_back;
+        solid_.reset();
+        gl.draw(scene, image_);
+        solid_ = std::move(now);
+        s.at.context.counts->read_back += gl.read_back - before;
+        ++s.at.context.counts->mechanisms_lit;
+    }
     const int x = static_cast<int>(s.at.box.x), y = static_cast<int>(s.at.box.y);
     DirtyTiles where(s.canvas.image().width, s.canvas.image().height);
     scene.seen.for_each_run([&](double left, double top, double right, double bottom) {

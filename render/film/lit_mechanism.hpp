@@ -20,7 +20,14 @@ class LitMechanism {
 
     std::unique_ptr<LitRenderer> renderer_;
     Image image_;
-    std::optional<MechanismShape> shape_;  // the shape in the image
+    struct SolidPicture {
+        MechanismShape shape;
+        Perspective view;
+        std::vector<Color> rim;
+        bool operator==(const SolidPicture&) const = default;
+    };
+    std::optional<SolidPicture> solid_;    // the solid view in the image
+    std::optional<MechanismShape> shape_;  // the lit shape in the image
     DirtyTiles tiles_;                     // its tiles
 };
 

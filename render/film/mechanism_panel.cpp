@@ -134,8 +134,8 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
         draw_cam_speed(s);
     }
     tip_path_.draw_trail(s, at_);
-    canvas.uncased([&] { draw_bodies(s, style, threads); });
-    if (!s.view) canvas.uncased([&] { draw_beam_trace(s, threads.trace); });
+    draw_bodies(s, style, threads);
+    if (!s.view) draw_beam_trace(s, threads.trace);
     if (at.ghosts) draw_ghost_outlines(s);
     if (at.member == 0) draw_measured_beams(s);
     if (s.view) {  // in the plane of the front of the beam: the mount must not hide them

@@ -12,8 +12,7 @@ void Offscreen::put(Canvas& onto, const Box& box, const std::function<void(Canva
     for (auto y = static_cast<std::ptrdiff_t>(box.y); y < static_cast<std::ptrdiff_t>(box.bottom()); ++y)
         std::fill_n(image_.pixels.begin() + y * image_.width + x, w, 0u);
     Canvas canvas(image_, onto.fonts());
-    canvas.outline = onto.outline;
-    canvas.casing = onto.casing;
+    canvas.halo_of_all = onto.halo_of_all;
     canvas.record = onto.record;
     draw(canvas);
     onto.image_part(image_, 0, 0, box);

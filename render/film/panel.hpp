@@ -71,8 +71,6 @@ struct FilmContext {
                                 : std::vector<double>{};
     }
     bool names_in_panels() const;  // the names of compared motions are beside their mechanisms
-    // Sets the outlines of texts and lines in films without paper.
-    void outline(Canvas& canvas) const { outline_on(canvas, *palette, unit); }
     // Far from the colours of motions, and bright on dark paper.
     Color data_color(std::size_t k) const { return series_color(*palette, (palette->paper.g < 0.5 ? 5 : 7) - k % 3); }
     // Hub angle in data set k at time t, by linear interpolation; NaN where it has none [rad].

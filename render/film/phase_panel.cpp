@@ -1,7 +1,9 @@
 // The phase portrait: hub speed against hub angle, with the path so far and the current point.
 #include <fmt/format.h>
 
-#include "render/draw/accumulated.hpp"
+#include <algorithm>
+#include <span>
+
 #include "render/draw/smooth_path.hpp"
 #include "render/film/chart_panel.hpp"
 #include "render/plot/channel_label.hpp"
@@ -11,9 +13,22 @@ namespace {
 
 using sim::ChannelKind;
 
-struct Layers final : FilmPanel::State {
-    std::vector<AccumulatedLayer> layers;
+struct TimedPath {
+    std::vector<double> times;  // increasing [s]
+    std::vector<Vec2> points;   // [px]; NaN breaks the path
 };
+
+// Without points nearer than `least` pixels to the previous one, except the last point.
+TimedPath thinned(const std::vector<double>& times, const std::vector<Vec2>& points, double least) {
+    TimedPath out;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        const bool near = !out.points.empty() && norm(points[i] - out.points.back()) < least;  // false beside NaN
+        if (near && i + 1 < times.size()) continue;
+        out.times.push_back(times[i]);
+        out.points.push_back(points[i]);
+    }
+    return out;
+}
 
 class PhasePanel final : public FilmPanel {
   public:
@@ -38,14 +53,6 @@ class PhasePanel final : public FilmPanel {
         for (int m = 0; m < context.members(); ++m) paths_.push_back(path(m));
     }
 
-    std::unique_ptr<State> make_state() const override {
-        auto state = std::make_unique<Layers>();
-        const Box box = paths_box();
-        for (std::size_t i = 0; i < paths_.size(); ++i)
-            state->layers.emplace_back(static_cast<int>(box.w), static_cast<int>(box.h));
-        return state;
-    }
-
     void draw_background(Canvas& canvas) const override {
         const double u = context_.unit;
         const std::string name = plot_.y().name(),
@@ -57,18 +64,17 @@ class PhasePanel final : public FilmPanel {
         plot_.draw_y_axis(canvas);
         plot_.draw_x_axis(canvas);
         for (std::size_t m = 0; m < paths_.size(); ++m) {
-            std::vector<Vec2> points = paths_[m].points;
-            for (Vec2& q : points) q += corner();
-            canvas.polyline(points);
+            canvas.polyline(paths_[m].points);
             canvas.stroke({context_.palette->tint(color(m), 0.22), 1.0 * u});
         }
     }
 
-    void draw(Canvas& canvas, int frame, Style, State* state) const override {
-        auto& layers = static_cast<Layers*>(state)->layers;
+    void draw(Canvas& canvas, int frame, Style, State*) const override {
         for (std::size_t m = 0; m < paths_.size(); ++m) {
-            layers[m].extend_to(context_.at(frame), paths_[m], canvas.fonts(), {color(m), 1.3 * context_.unit});
-            layers[m].draw(canvas, corner());
+            const auto& [times, points] = paths_[m];
+            const auto past = std::ranges::upper_bound(times, context_.at(frame)) - times.begin();
+            canvas.polyline(std::span(points).first(static_cast<std::size_t>(past)));
+            canvas.stroke({color(m), 1.3 * context_.unit});
         }
         for (std::size_t m = 0; m < paths_.size(); ++m) {
             const sim::Pose& pose = context_.pose(static_cast<int>(m), frame);
@@ -93,15 +99,13 @@ class PhasePanel final : public FilmPanel {
                 .grid = true};
     }
     Vec2 to_pixels(double theta, double speed) const { return plot_.at(x_factor_ * theta, y_factor_ * speed); }
-    Box paths_box() const { return plot_.box().inset(-8); }
-    Vec2 corner() const { return {paths_box().x, paths_box().y}; }
     TimedPath path(int member) const {
         const sim::Table& table = context_.motion(member).chart;
         const auto *t = column(table, {ChannelKind::t, 0}), *x = column(table, {ChannelKind::theta, 0}),
                    *y = column(table, {ChannelKind::theta_dot, 0});
         if (!t || !x || !y) return {};
         std::vector<Vec2> points;
-        for (std::size_t i = 0; i < t->size(); ++i) points.push_back(to_pixels((*x)[i], (*y)[i]) - corner());
+        for (std::size_t i = 0; i < t->size(); ++i) points.push_back(to_pixels((*x)[i], (*y)[i]));
         return smooth(thinned(*t, points, 0.7));
     }
     // Rows are dense enough for a spline between them.

@@ -133,15 +133,10 @@ void TipPath::draw_trail(const MechanismScene& s, const MechanismView& home) con
     for (std::size_t k = now; more && k-- > 0;) more = add(k, moves[now] - moves[k]);
     for (std::size_t k = last + 1; more && !seam_.empty() && k-- > now + 1;)
         more = add(k, moves[now] + 1 + moves[last] - moves[k]);
-    const auto stroke = [&](Color color, double strength, double width) {
-        for (const Piece& each : pieces) {
-            s.canvas.polyline(each.line);
-            s.canvas.stroke({color.faded(strength * each.opacity), width, {}, Cap::butt});
-        }
-    };
-    const double width = 2 * home.unit;
-    if (s.canvas.casing) stroke(s.canvas.casing->color, 1, width + s.canvas.casing->width);
-    stroke(home.palette.motion, 0.55, width);
+    for (const Piece& each : pieces) {
+        s.canvas.polyline(each.line);
+        s.canvas.stroke({home.palette.motion.faded(0.55 * each.opacity), 2 * home.unit, {}, Cap::butt});
+    }
 }
 
 }  // namespace beamcam::render

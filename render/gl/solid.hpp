@@ -25,6 +25,7 @@ struct Perspective {
     std::array<Vec3, 3> axes{};     // right, up and towards the viewer
 
     static Perspective looking(Vec2 centre, double distance, double zoom, double yaw, double pitch);
+    bool operator==(const Perspective&) const = default;
     Vec2 to_pixels(Vec3 p) const;
     bool is_before(Vec3 p) const;                          // clearly in front of the camera
     std::optional<Vec3> seen_at(Vec2 px, double z) const;  // the point of the plane z = const. at this pixel

@@ -1,9 +1,9 @@
 #include "render/mechanism/mechanism.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-
-#include "render/draw/area.hpp"
+#include <numbers>
 
 namespace beamcam::render {
 namespace {
@@ -26,27 +26,20 @@ DiscShape disc_shape(const sim::Problem& problem, const sim::Pose& pose, const C
     return disc;
 }
 
-// A ring of this width inside a circle.
-Area ring(Vec2 centre, double outside, double width) {
-    Area area;
-    area.add_circle(centre, outside);
-    area.cut_circle(centre, outside - width);
-    return area;
-}
-
 // The fill ends under the middle of the outline, so that it is not visible at its edges.
 void draw_disc(Canvas& canvas, const DiscShape& disc, double unit, const Palette& p) {
     const double rim = 2 * unit, bore = 1.6 * unit;
-    Area body, mark;
-    body.add_circle(disc.centre, disc.radius - rim / 2);
-    body.cut_circle(disc.axis, disc.bore);
-    mark.add_circle(disc.mark, disc.mark_radius);
-    canvas.paint_pixels([&](const PixelView& picture, DirtyTiles* touched) {
-        body.paint(picture, p.steel, touched);
-        ring(disc.centre, disc.radius, rim).paint(picture, p.steel_edge, touched);
-        ring(disc.axis, disc.bore + bore / 2, bore).paint(picture, p.steel_edge, touched);
-        mark.paint(picture, p.steel_edge, touched);
-    });
+    canvas.circle(disc.centre, disc.radius - rim / 2);
+    canvas.move_to(disc.axis + Vec2{disc.bore, 0});
+    canvas.arc(disc.axis, disc.bore, 0, 2 * std::numbers::pi);  // against the circle: it is cut out
+    canvas.close();
+    canvas.fill(p.steel);
+    canvas.circle(disc.centre, disc.radius - rim / 2);
+    canvas.stroke({p.steel_edge, rim});
+    canvas.circle(disc.axis, disc.bore);
+    canvas.stroke({p.steel_edge, bore});
+    canvas.circle(disc.mark, disc.mark_radius);
+    canvas.fill(p.steel_edge);
 }
 
 // Number of colour steps between two stations: steps of two levels of 255 are not visible as bands.
@@ -91,23 +84,18 @@ std::vector<Vec2> around(const Edges& edges) {
 // edge of the section.
 void draw_beam(Canvas& canvas, const MechanismShape& s, double unit, const Palette& p) {
     const Edges middle = inset(s, unit);
-    Area outline;
-    outline.add(around({s.face, s.back}));
-    outline.cut(around(inset(s, 2 * unit)));
-    canvas.paint_pixels([&](const PixelView& picture, DirtyTiles* touched) {
-        for (std::size_t i = 0; i + 1 < s.face.size(); ++i) {
-            const int steps = color_steps(s.colors[i], s.colors[i + 1]);
-            const auto at = [&](const std::vector<Vec2>& edge, int k) {
-                const double way = double(k) / steps;
-                return edge[i] * (1 - way) + edge[i + 1] * way;
-            };
-            for (int k = 0; k < steps; ++k)
-                paint_quadrilateral(
-                    {at(middle.face, k), at(middle.face, k + 1), at(middle.back, k + 1), at(middle.back, k)}, picture,
-                    mix(s.colors[i], s.colors[i + 1], (k + 0.5) / steps), touched);
-        }
-        outline.paint(picture, p.steel_edge, touched);
-    });
+    for (std::size_t i = 0; i + 1 < s.face.size(); ++i) {
+        const int steps = color_steps(s.colors[i], s.colors[i + 1]);
+        const auto at = [&](const std::vector<Vec2>& edge, int k) {
+            const double way = double(k) / steps;
+            return edge[i] * (1 - way) + edge[i + 1] * way;
+        };
+        for (int k = 0; k < steps; ++k)
+            canvas.fill_piece(
+                std::array{at(middle.face, k), at(middle.face, k + 1), at(middle.back, k + 1), at(middle.back, k)},
+                mix(s.colors[i], s.colors[i + 1], (k + 0.5) / steps));
+    }
+    canvas.fill_between(around({s.face, s.back}), around(inset(s, 2 * unit)), p.steel_edge);
 }
 
 void draw_hub(Canvas& canvas, const MechanismShape& s, double unit, const Palette& p) {

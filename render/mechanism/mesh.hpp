@@ -12,6 +12,7 @@ namespace beamcam::render {
 
 struct Vec3 {
     double x = 0, y = 0, z = 0;
+    bool operator==(const Vec3&) const = default;
 };
 
 struct MeshVertex {

@@ -71,7 +71,7 @@ void Chart::draw_whole_past(const Fonts& fonts) {
     const Box box = past_box();
     past_ = Image(static_cast<int>(box.w), static_cast<int>(box.h));
     Canvas canvas(past_, fonts);
-    outline_on(canvas, palette_, style_.unit);
+    canvas.halo_of_all = palette_.halo_of_all();
     figure::Plot moved = plot_;
     moved.move_data({-box.x, -box.y});
     moved.draw_data(canvas, whole(true));

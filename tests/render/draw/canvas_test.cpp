@@ -30,12 +30,12 @@ TEST(Canvas, APictureThatCairoGaveUpIsAnError) {
     EXPECT_THROW(draw(), std::runtime_error);
 }
 
-// In films without paper every text has an outline.
+// In films without paper every text has a halo.
 TEST(Canvas, TextsAreOutlinedInAColourThatIsNotTheirOwn) {
     const auto covered = [](std::optional<Color> outline, Color ink, std::optional<Color> halo) {
         Image image(80, 40);
         Canvas canvas(image, fonts());
-        canvas.outline = outline;
+        canvas.halo_of_all = outline;
         canvas.text({10, 30}, "mm", {.size = 20, .color = ink, .halo = halo});
         return std::ranges::count_if(image.pixels, [](std::uint32_t pixel) { return pixel != 0; });
     };
@@ -54,21 +54,6 @@ TEST(Canvas, AnErrorOnTheWayIsTheOneThatIsReported) {
         throw std::out_of_range("another");
     };
     EXPECT_THROW(draw(), std::out_of_range);
-}
-
-TEST(Canvas, AStencilThatCairoGaveUpIsAnError) {
-    Image image(32, 32);
-    DirtyTiles touched(32, 32);
-    CoverageCache coverage_cache;
-    const auto draw = [&] {
-        Canvas canvas(image, fonts());
-        canvas.touched = &touched;
-        canvas.coverage_cache = &coverage_cache;
-        give_up(canvas);
-    };
-    EXPECT_THROW(draw(), std::runtime_error);
-    coverage_cache.next_picture();
-    EXPECT_THROW(draw(), std::runtime_error);
 }
 
 TEST(PageCanvas, AFigureThatCairoGaveUpIsAnError) {

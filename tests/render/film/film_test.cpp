@@ -286,6 +286,19 @@ TEST(LitFilm, LitBeamIsDrawnWhereItsGeometrySays) {
     }
 }
 
+TEST(LitFilm, AMechanismThatStandsStillIsDrawnOnceInEveryStyle) {
+    SKIP_WITHOUT_GL();
+    for (const Style style : {Style::lit, Style::solid}) {
+        FilmSetup setup = small_film(style, {.duration = 0.2});
+        for (sim::Pose& pose : setup.poses) pose = setup.poses.front();
+        setup.callouts = {{3, 8, "a text that comes and goes", 0}};
+        Film film(std::move(setup));
+        for (int k = 0; k < film.frames(); ++k) drawn(film, k);
+        EXPECT_EQ(film.counts().mechanisms_lit, 1) << int(style);
+        EXPECT_EQ(film.counts().gl_contexts, 1) << int(style);
+    }
+}
+
 // The mark of the axis C is in the bore of the disc; without paper it needs a ground of its own.
 TEST(LitFilm, TheBoreOfATransparentDiscIsFilled) {
     SKIP_WITHOUT_GL();

@@ -7,8 +7,6 @@
 #include <limits>
 #include <numbers>
 
-#include "render/draw/accumulated.hpp"
-#include "render/draw/blend.hpp"
 #include "render/draw/dirty_tiles.hpp"
 #include "render/draw/markup.hpp"
 #include "render/film/film.hpp"
@@ -23,6 +21,12 @@ namespace beamcam::render {
 namespace {
 
 using sim::ChannelKind;
+
+// As Cairo rounds an opaque colour, through 16 bits a channel.
+std::uint32_t pixel_of(const Color& c) {
+    const auto channel = [](double share) { return static_cast<std::uint32_t>(share * 65535 + 0.5) >> 8; };
+    return 255U << 24 | channel(c.r) << 16 | channel(c.g) << 8 | channel(c.b);
+}
 
 LayoutNode leaf(PanelSpec spec, double share = 1) { return {.share = share, .panel = std::move(spec)}; }
 LayoutNode grid(LayoutNode::Kind kind, std::vector<LayoutNode> children, double share = 1) {
@@ -136,29 +140,6 @@ TEST(Panels, StandStillWhileTimeDoes) { stands_still(everything()); }
 TEST(Panels, ComparisonsStandStillWhileTimeDoes) {
     stands_still(compared(Comparison::panels));
     stands_still(compared(Comparison::ghosts));
-}
-
-// ---- outlines --------------------------------------------------------------------
-
-// The path of the tip has an outline like other lines.
-TEST(Transparent, ThePathOfTheTipHasAnOutline) {
-    FilmSetup setup = test::flat_film({.duration = 0.5}, 1280, 720);
-    setup.layout = LayoutNode{};
-    setup.view.transparent = true;
-    Film film(setup);
-    const Image image = drawn(film, 20);
-    const FrameGeometry g = film.geometry(10);
-    const std::size_t end = g.beam.line.size() - 1;
-    const Vec2 tip = g.camera.to_pixels((g.beam.face(end) + g.beam.back(end)) * 0.5);
-    const Color paper = palette(Theme::light).paper;
-    int bright = 0;  // pixels near to the paper's colour beside the line
-    for (int y = -4; y <= 4; ++y)
-        for (int x = -4; x <= 4; ++x) {
-            const std::uint32_t p =
-                image.pixels[std::size_t(tip.y + y) * std::size_t(image.width) + std::size_t(tip.x + x)];
-            bright += double(p >> 16 & 255) > 0.5 * 255 * paper.r && (p >> 24) > 128;
-        }
-    EXPECT_GT(bright, 8);
 }
 
 // ---- visible parts -------------------------------------------------------------------------------
@@ -393,7 +374,7 @@ TEST(Panels, WordsOfATransparentLightFilmAreReadOnDarkGroundsToo) {
     for (const Theme theme : {Theme::light, Theme::dark, Theme::print}) {
         const Palette p = palette(theme).without_paper();
         for (const std::uint32_t ground : {0xFFFFFFU, 0x000000U, 0x3A6EA5U, 0x888888U}) {
-            const Color around = mix(rgb(ground), p.paper, p.outline()->a);
+            const Color around = mix(rgb(ground), p.paper, p.halo_of_all()->a);
             EXPECT_GT(contrast(p.ink, around), 10) << ground;
             EXPECT_GT(contrast(p.muted, around), 4) << ground;
         }
@@ -1225,11 +1206,6 @@ TEST(Perspective, AxesAreOrthonormal) {
             EXPECT_NEAR(a.x * b.x + a.y * b.y + a.z * b.z, i == j ? 1 : 0, 1e-12);
         }
     EXPECT_GT(p.axes[2].x, 0);  // seen from the right
-}
-
-TEST(TimedPath, ThinningKeepsTheEnds) {
-    const TimedPath path = thinned({0, 1, 2, 3}, {{0, 0}, {0.1, 0}, {5, 0}, {5.1, 0}}, 1);
-    EXPECT_EQ(path.times, (std::vector<double>{0, 2, 3}));
 }
 
 }  // namespace
