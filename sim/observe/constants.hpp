@@ -6,7 +6,8 @@
 namespace beamcam::sim {
 
 // ---- extrema and crossings ----
-inline constexpr double kNegligibleRise = 1e-6;     // of the channel's range: a higher value is not searched for
+inline constexpr double kNegligibleRise = 1e-6;  // of the channel's range: a higher value is not searched for
+inline constexpr double kRefinedRise = 1e-5;     // of that: a rise between samples, which moves the extremum's instant
 inline constexpr double kNegligibleEnergy = 1e-10;  // of the vibration: 10⁻⁵ of its rates
 inline constexpr double kSamplesPerRadian = 1.3;    // of a vibration: eight in a period
 inline constexpr double kMostSamples = 1e5;         // between two nodes of a step

@@ -40,7 +40,7 @@ void ExtremaFinder::step(const SegmentInterval& s, std::vector<Extremum>& extrem
             high.offer(all[c].t[k], all[c].value[k]);
             low.offer(all[c].t[k], -all[c].value[k]);
         }
-        const double rise = negligible({-low.value, low.t, high.value, high.t});
+        const double rise = kRefinedRise * negligible({-low.value, low.t, high.value, high.t});
         raise(all[c], channels_[c], 1, rise, high);
         raise(all[c], channels_[c], -1, rise, low);
         e = {-low.value, low.t, high.value, high.t};

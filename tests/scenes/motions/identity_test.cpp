@@ -288,8 +288,9 @@ TEST(Identity, ChangesExactlyWithTheLeavesThatMatter) {
                     const Identities after = identities(*reread);
                     const std::string what =
                         fmt::format("{}: {} = {}", file.filename().string(), leaf.id, value.dump());
-                    if (leaf.id != "outputs[]{type=figure}.figure")  // a preset may bring motions of its own
+                    if (leaf.id != "outputs[]{type=figure}.figure") {  // a preset may bring motions of its own
                         EXPECT_EQ(after.motion != before.motion, decides_the_motion(leaf, *scene, *reread)) << what;
+                    }
                     const bool longer = run_end(*scene) != run_end(*reread);  // a later state, or a later row
                     for (std::size_t i = 0; i < before.outputs.size(); ++i)
                         EXPECT_EQ(after.outputs[i] != before.outputs[i],

@@ -288,7 +288,7 @@ TEST(FilmTimes, TextsOfOneInstantFollowEachOther) {
         film_times({.fps = {10, 1}, .events = {{{.t = 0.5}, 2, "first", 1}, {{.t = 0.5}, 1, "second", 1}}}, 1, {});
     ASSERT_EQ(times.callouts.size(), 2u);
     EXPECT_EQ(times.callouts[0].first, 5);
-    EXPECT_EQ(times.callouts[0].last, 25);
+    EXPECT_EQ(times.callouts[0].last, 24);  // one text at a time
     EXPECT_EQ(times.callouts[1].first, 25);
     EXPECT_EQ(times.callouts[1].last, 35);
     EXPECT_EQ(times.frames.size(), 40u);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
 #include "tests/sanitizers.hpp"
 #include "tests/sim/support.hpp"
@@ -38,8 +39,7 @@ Table sampled(const Problem& problem, const std::vector<Channel>& channels, std:
 }
 
 // Samples never exceed an extremum, and at its instant they reach it.
-void expect_true_extrema(const Problem& problem, double end, int count) {
-    const std::vector<Channel> channels = searched_channels(problem);
+void expect_true_extrema(const Problem& problem, double end, int count, const std::vector<Channel>& channels) {
     Request request;
     request.end_time = end;
     request.extrema = channels;
@@ -60,6 +60,10 @@ void expect_true_extrema(const Problem& problem, double end, int count) {
         EXPECT_NEAR(at_min, e.min, share) << name(channels[c]) << " at " << e.t_min;
         EXPECT_NEAR(at_max, e.max, share) << name(channels[c]) << " at " << e.t_max;
     }
+}
+
+void expect_true_extrema(const Problem& problem, double end, int count) {
+    expect_true_extrema(problem, end, count, searched_channels(problem));
 }
 
 Problem turning_cam(ModelKind model, int modes, double speed = 10) {
@@ -386,7 +390,12 @@ TEST(Extrema, OfRandomScenesExceedEverySample) {
     for (int scene = 0; scene < 200; ++scene) {
         SCOPED_TRACE(scene);
         const Problem p = random_scene(dice);
-        expect_true_extrema(p, kEnd, static_cast<int>(kEnd * kRate));
+        std::vector<Channel> channels = searched_channels(p);
+        const auto costly = [](Channel c) {
+            return row(c.kind).unit == std::string_view("J") || traits(c.kind).separation;
+        };
+        if (scene % 5 != 0) std::erase_if(channels, costly);
+        expect_true_extrema(p, kEnd, static_cast<int>(kEnd * kRate), channels);
     }
 }
 
