@@ -132,8 +132,8 @@ class NpzParser {
         const auto known = std::ranges::find(kElements, type, &Element::type);
         if (known == std::end(kElements))
             return "has elements of type " + in_quotes(type) + "; only numbers are columns: write astype(float)";
-        std::string_view length = shape.empty() ? "1" : shape;  // "(3,)", or "()" of a single number
-        if (length.ends_with(',')) length.remove_suffix(1);
+        std::string length = shape.empty() ? "1" : shape;  // "(3,)", or "()" of a single number
+        if (length.ends_with(',')) length.pop_back();
         const auto rows = number_in<std::uint64_t>(length);
         if (!rows) return "has the shape " + in_quotes("(" + shape + ")") + "; a column has one dimension";
         if (data.size() % known->size != 0 || data.size() / known->size != *rows)
