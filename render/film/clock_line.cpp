@@ -27,9 +27,11 @@ double recent_peak(const FilmContext& context, int member, int frame) {
     const double t = context.at(frame);
     const auto later = std::ranges::upper_bound(impacts, t, {}, &sim::Impact::t_start);
     if (later == impacts.begin()) return 0;
+    auto first_impact = std::prev(later);  // of the collision
+    while (first_impact != impacts.begin() && std::prev(first_impact)->collision == std::prev(later)->collision)
+        --first_impact;
     double peak = 0, end = -std::numeric_limits<double>::infinity();
-    for (const sim::Impact& impact : std::span(impacts.begin(), later)) {
-        if (impact.collision != std::prev(later)->collision) continue;
+    for (const sim::Impact& impact : std::span(first_impact, later)) {
         end = std::max(end, std::min(impact.t_end.value_or(t), t));
         if (impact.t_end && *impact.t_end <= t) {
             peak = std::max(peak, impact.force_peak.value_or(0));

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "sim/base/assert.hpp"
+#include "sim/base/vec2.hpp"
 
 namespace beamcam::sim {
 
@@ -88,38 +89,34 @@ double find_root(F&& f, double a, double b) {
     return find_root(std::forward<F>(f), a, b, fa, fb);
 }
 
-struct PlanePoint {
-    double x, y;
-};
-
 // The top of the parabola through three points in the order of x; nothing if it has none between the first and the
 // last.
-inline std::optional<PlanePoint> vertex(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
+inline std::optional<Vec2> vertex(const Vec2& a, const Vec2& b, const Vec2& c) {
     const double left = (b.y - a.y) / (b.x - a.x), right = (c.y - b.y) / (c.x - b.x);
     const double bend = (right - left) / (c.x - a.x);
     if (!(bend < 0)) return std::nullopt;
     const double x = 0.5 * (a.x + b.x) - 0.5 * left / bend;
     if (!(x >= a.x && x <= c.x)) return std::nullopt;
-    return PlanePoint{x, a.y + (x - a.x) * (left + bend * (x - b.x))};
+    return Vec2{x, a.y + (x - a.x) * (left + bend * (x - b.x))};
 }
 
-// Of the rise of a parabola above the points through which it passes: what the function may add. It is 0.12 for a
-// vibration with eight points in a period.
+// A function may rise above its parabola by this share of the parabola's rise above the points through which it passes.
+// The share is 0.12 for a vibration with eight points in a period.
 inline constexpr double kParabolaError = 0.25;
 
 // The largest value of f by parabolas, one after the other, from three points of f in the order of x. Ends earlier
 // where the parabola does not promise `negligible` more than `to_beat`.
 template <class F>
-PlanePoint climb(F&& f, PlanePoint a, PlanePoint b, PlanePoint c, double to_beat, double negligible) {
+Vec2 climb(F&& f, Vec2 a, Vec2 b, Vec2 c, double to_beat, double negligible) {
     constexpr int kMostParabolas = 10;   // each squares the distance from the maximum, but for the first
     constexpr double kConverged = 1e-3;  // of what is negligible
-    PlanePoint best = std::max({a, b, c}, [](const PlanePoint& p, const PlanePoint& q) { return p.y < q.y; });
+    Vec2 best = std::max({a, b, c}, [](const Vec2& p, const Vec2& q) { return p.y < q.y; });
     for (int i = 0; i < kMostParabolas; ++i) {
         const auto top = vertex(a, b, c);
         if (!top) return best;
         const double rise = top->y - best.y;
         if (!(top->y + kParabolaError * rise > to_beat + negligible) || !(rise > kConverged * negligible)) return best;
-        const PlanePoint next{top->x, f(top->x)};
+        const Vec2 next{top->x, f(top->x)};
         if (next.x == b.x || !std::isfinite(next.y)) return best;
         if (next.y > best.y) best = next;
         const bool before = next.x < b.x;

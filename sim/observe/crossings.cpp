@@ -12,33 +12,33 @@ namespace {
 // The points of the channel above the level, in the order of time: its samples, and the turning points beyond the level
 // between samples on one side of it. Values below rounding of the samples are zero at the start of the motion: no
 // earlier step determines the sign of a start from rest.
-std::vector<PlanePoint> points_of(StepSamples& step, const SegmentInterval& s, Channel channel, double level) {
+std::vector<Vec2> points_of(StepSamples& step, const SegmentInterval& s, Channel channel, double level) {
     step.begin(s);
     const Channel one[] = {channel};
     const StepSamples::Series series =
         step.sample(one, [&](std::size_t, double low, double high,
                              double stray) { return low - stray < level && level < high + stray; })
             .front();
-    std::vector<PlanePoint> points;
+    std::vector<Vec2> points;
     double largest = std::fabs(level);
     for (std::size_t k = 0; k < series.t.size(); ++k) {
         points.push_back({series.t[k], series.value[k] - level});
         largest = std::max(largest, std::fabs(points.back().y));
     }
     if (s.from == 0 && std::fabs(points.front().y) <= kSignRounding * largest) points.front().y = 0;
-    std::vector<PlanePoint> turns;
+    std::vector<Vec2> turns;
     for (std::size_t k = 1; k + 1 < points.size(); ++k) {
         const double side = points[k].y > 0 ? -1 : 1;
-        const auto turned = [&](std::size_t i) { return PlanePoint{points[i].x, side * points[i].y}; };
+        const auto turned = [&](std::size_t i) { return Vec2{points[i].x, side * points[i].y}; };
         if (turned(k - 1).y > 0 || turned(k + 1).y > 0) continue;
         const auto top = vertex(turned(k - 1), turned(k), turned(k + 1));
         if (!top || !(top->y > -kParabolaError * (top->y - turned(k).y))) continue;
         const auto f = [&](double t) { return side * (step.value(channel, t) - level); };
-        const PlanePoint turn = climb(f, turned(k - 1), turned(k), turned(k + 1), 0, kSignRounding * largest);
+        const Vec2 turn = climb(f, turned(k - 1), turned(k), turned(k + 1), 0, kSignRounding * largest);
         if (turn.y > kSignRounding * largest) turns.push_back({turn.x, side * turn.y});
     }
     points.insert(points.end(), turns.begin(), turns.end());
-    std::ranges::sort(points, {}, &PlanePoint::x);
+    std::ranges::sort(points, {}, &Vec2::x);
     return points;
 }
 
@@ -46,10 +46,10 @@ std::vector<PlanePoint> points_of(StepSamples& step, const SegmentInterval& s, C
 
 void find_crossings(StepSamples& step, const SegmentInterval& s, Channel channel, double level,
                     std::vector<LevelCrossing>& found) {
-    const std::vector<PlanePoint> points = points_of(step, s, channel, level);
+    const std::vector<Vec2> points = points_of(step, s, channel, level);
     const auto above = [&](double t) { return step.value(channel, t) - level; };
     for (std::size_t k = 0; k + 1 < points.size(); ++k) {
-        const PlanePoint &a = points[k], &b = points[k + 1];
+        const Vec2 &a = points[k], &b = points[k + 1];
         // A zero belongs to the interval that it ends. Where the beam bends beyond its model, there may be no value.
         if ((a.y < 0 && b.y >= 0) || (a.y > 0 && b.y <= 0))
             found.push_back({find_root(above, a.x, b.x, a.y, b.y), a.y < 0});

@@ -74,7 +74,7 @@ void ExtremaFinder::raise(const StepSamples::Series& series, Channel channel, do
         double value;
         std::size_t at;
     };
-    const auto point = [&](std::size_t k) { return PlanePoint{series.t[k], sign * series.value[k]}; };
+    const auto point = [&](std::size_t k) { return Vec2{series.t[k], sign * series.value[k]}; };
     std::vector<Promise> promises;
     for (std::size_t k = 1; k + 1 < series.t.size(); ++k)
         if (const auto top = vertex(point(k - 1), point(k), point(k + 1))) {
@@ -86,7 +86,7 @@ void ExtremaFinder::raise(const StepSamples::Series& series, Channel channel, do
     const auto f = [&](double t) { return sign * step_.value(channel, t); };
     for (const auto& [value, k] : promises) {
         if (!(value > best.value + negligible)) return;
-        const PlanePoint top = climb(f, point(k - 1), point(k), point(k + 1), best.value, negligible);
+        const Vec2 top = climb(f, point(k - 1), point(k), point(k + 1), best.value, negligible);
         best.offer(top.x, top.y);
     }
 }

@@ -14,17 +14,12 @@
 namespace beamcam::sim {
 namespace {
 
-// The samples of the contact that are this channel; null for other channels.
+// The samples of a solved contact that are this channel; null for other channels.
 const double* touch_channel(const TouchSamples& touch, ChannelKind kind) {
     if (kind == ChannelKind::contact_force) return touch.force;
     if (kind == ChannelKind::friction_force) return touch.friction;
     if (kind == ChannelKind::gap) return touch.gap;
     return kind == ChannelKind::contact_x ? touch.x : nullptr;
-}
-
-bool is_of_touch(ChannelKind kind) {
-    return kind == ChannelKind::contact_force || kind == ChannelKind::friction_force || kind == ChannelKind::gap ||
-           kind == ChannelKind::contact_x;
 }
 
 }  // namespace
@@ -92,10 +87,13 @@ const std::vector<double>& StepSamples::modal_energies(double t, bool whole) {
 
 // A vibration that fades early in the step is sampled in parts whose lengths grow from the start by a constant factor.
 // In a step that was solved for the contact its force and gap are resolved.
-void StepSamples::find_parts(bool of_touch) {
+void StepSamples::find_parts() {
+    const TouchSamples* touch = step_.segment->touch();
+    const bool solved =
+        touch && std::ranges::all_of(channels_, [&](Channel c) { return touch_channel(*touch, c.kind) != nullptr; });
     const double length = step_.to - step_.from;
     double decay = 0, energy = 0;
-    if (fastest_decay_ * length > kFadedDecays && !(of_touch && step_.segment->touch())) {
+    if (fastest_decay_ * length > kFadedDecays && !solved) {
         const std::vector<double>& energies = modal_energies(step_.from, step_.from == 0);
         for (const double e : energies) energy += e;
         for (std::size_t i = 0; i < modes_.size(); ++i)
@@ -148,7 +146,7 @@ const std::vector<StepSamples::Series>& StepSamples::sample(std::span<const Chan
         series.t.clear();
         series.value.clear();
     }
-    find_parts(std::ranges::all_of(channels, [](Channel c) { return is_of_touch(c.kind); }));
+    find_parts();
     for (const Instants& part : parts_) sample_part(part, needs_more, see);
     return series_;
 }

@@ -46,7 +46,7 @@ class StepSamples {
     };
     void find_modes();
     const std::vector<double>& modal_energies(double t, bool whole);
-    void find_parts(bool of_touch);
+    void find_parts();
     double fastest(const Instants& part);
     // The contact at the ends and nodes of the part where the step solved for it there.
     const TouchSamples* touch_at(const Instants& part) const;

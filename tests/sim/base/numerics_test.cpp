@@ -105,8 +105,8 @@ TEST(Climb, FindsTheMaximumBetweenThreePoints) {
     double best = -2;
     for (int k = 0; k < 1'000'000; ++k) best = std::max(best, f(1e-6 * k));
     for (const double first : {-0.3, 0.0, 0.2}) {
-        const auto at = [&](double x) { return PlanePoint{x, f(x)}; };
-        const PlanePoint top = climb(f, at(first), at(first + 0.4), at(first + 0.8), 0, 1e-12);
+        const auto at = [&](double x) { return Vec2{x, f(x)}; };
+        const Vec2 top = climb(f, at(first), at(first + 0.4), at(first + 0.8), 0, 1e-12);
         EXPECT_NEAR(top.y, best, 1e-12) << first;
         EXPECT_EQ(f(top.x), top.y);
     }
