@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 
 #define BEAMCAM_INLINE inline __attribute__((always_inline))
 
@@ -71,26 +72,45 @@ BEAMCAM_INLINE double largest(const Lanes& a) {
     return m[0] > m[1] ? m[0] : m[1];
 }
 
+// y_r = Σ_c a[r·columns + c] x_c. Two rows share each load of x.
+inline void product(std::size_t rows, std::size_t columns, const double* a, const Lanes* x, Lanes* y) {
+    std::size_t r = 0;
+    for (; r + 2 <= rows; r += 2) {
+        const double *row = a + r * columns, *next = row + columns;
+        Lanes total{}, next_total{};
+        for (std::size_t c = 0; c < columns; ++c) {
+            total += row[c] * x[c];
+            next_total += next[c] * x[c];
+        }
+        y[r] = total;
+        y[r + 1] = next_total;
+    }
+    if (r == rows) return;
+    Lanes total{};
+    for (std::size_t c = 0; c < columns; ++c) total += a[r * columns + c] * x[c];
+    y[r] = total;
+}
+
 inline void sine_and_cosine(double a, double& sine, double& cosine) {
     sine = std::sin(a);
     cosine = std::cos(a);
 }
-// Small angles by Taylor's series, to rounding.
-inline void sine_and_cosine(const Lanes& a, Lanes& sine, Lanes& cosine) {
-    constexpr double kSmall = 0.8;
-    if (!(largest(a) <= kSmall)) {
-        for (int k = 0; k < kNodes; ++k) {
-            sine[k] = std::sin(a[k]);
-            cosine[k] = std::cos(a[k]);
-        }
-        return;
-    }
+// Taylor's series, to rounding for |a| <= kSeriesAngle.
+inline constexpr double kSeriesAngle = 0.8;  // [rad] a little more than π/4
+BEAMCAM_INLINE void sine_and_cosine_by_series(const Lanes& a, Lanes& sine, Lanes& cosine) {
     const Lanes a2 = a * a;
     Lanes s = a2 * (-1.0 / 1307674368000) + 1.0 / 6227020800, c = a2 * (1.0 / 20922789888000) - 1.0 / 87178291200;
     for (const double f : {-1.0 / 39916800, 1.0 / 362880, -1.0 / 5040, 1.0 / 120, -1.0 / 6}) s = s * a2 + f;
     for (const double f : {1.0 / 479001600, -1.0 / 3628800, 1.0 / 40320, -1.0 / 720, 1.0 / 24}) c = c * a2 + f;
     sine = a + a * (a2 * s);
     cosine = (1 - 0.5 * a2) + a2 * (a2 * c);
+}
+inline void sine_and_cosine(const Lanes& a, Lanes& sine, Lanes& cosine) {
+    if (largest(a) <= kSeriesAngle) return sine_and_cosine_by_series(a, sine, cosine);
+    for (int k = 0; k < kNodes; ++k) {
+        sine[k] = std::sin(a[k]);
+        cosine[k] = std::cos(a[k]);
+    }
 }
 // Sine and cosine of small angles are exact to rounding up to kSmallRotation.
 inline constexpr double kSmallRotation = 0.01;  // [rad]

@@ -60,6 +60,14 @@ Lanes Collocation::weights_to(double s) const {
     return w;
 }
 
+void combine(const std::array<Lanes, kNodes>& factors, const Lanes* x, Lanes* out) {
+    for (std::size_t j = 0; j < kNodes; ++j) {
+        Lanes total{};
+        for (int l = 0; l < kNodes; ++l) total += factors[j][l] * x[l];
+        out[j] = total;
+    }
+}
+
 Lanes at_nodes(double start, double h, const Lanes& rate) {
     const Collocation& gauss = Collocation::get();
     Lanes out = Lanes{} + start;

@@ -32,6 +32,9 @@ struct Collocation {
     Collocation();
 };
 
+// out[j] = Σ_l factor[j][l] x[l]: for each lane of x a combination of its nodal values.
+void combine(const std::array<Lanes, kNodes>& factors, const Lanes* x, Lanes* out);
+
 // A quantity that is `start` at the start of a step of length h, by its rate at the nodes.
 Lanes at_nodes(double start, double h, const Lanes& rate);
 

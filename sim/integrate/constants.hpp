@@ -36,10 +36,9 @@ inline constexpr double kMostDampingInLanes = 0.5;  // the largest ζ of oscilla
 inline constexpr double kSeriesRadians = 2;         // [rad], or decays, up to which responses come from their series
 // The nodes do not resolve vibration that turns by more radians, or decays by more, in a step.
 inline constexpr double kResolvedRadians = 3;
-// Vibration that turns by more radians in a step of flight is left out of the forcing, unless its ζ is larger. (S52b)
-inline constexpr double kFastRadians = 14, kMostDampingOfFast = 0.1;
-// In sustained contact, vibration that turns by more radians in a step is projected; growth by it begins at 14. (S52c)
-inline constexpr double kAliasedRadians = 7;
+// In sustained contact, vibration that turns by more radians in a step is projected, unless its ζ is larger; growth by
+// it begins at 14.                                                                                        (S52c)
+inline constexpr double kAliasedRadians = 7, kMostDampingOfProjected = 0.1;
 // Bounds within a step.
 inline constexpr double kMissedTurning = 1e-6;    // of Θ̇, which its nodal polynomial may miss at any tolerance
 inline constexpr double kFarthestFromNode = 0.1;  // of the step: no instant is farther from the nearest node

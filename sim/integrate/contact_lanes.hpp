@@ -6,10 +6,10 @@
 #include <memory>
 #include <vector>
 
+#include "sim/base/lanes.hpp"
 #include "sim/base/numerics.hpp"
 #include "sim/beam/modal_model.hpp"
 #include "sim/dynamics/system.hpp"
-#include "sim/integrate/lane_kernels.hpp"
 
 namespace beamcam::sim {
 
@@ -59,9 +59,6 @@ void product(std::size_t rows, std::size_t columns, const double* a, const T* x,
         for (std::size_t c = 0; c < columns; ++c) total += a[r * columns + c] * x[c];
         y[r] = total;
     }
-}
-inline void product(std::size_t rows, std::size_t columns, const double* a, const Lanes* x, Lanes* y) {
-    lane_kernels().multiply(rows, columns, a, x, y);
 }
 
 class ContactExpansion {

@@ -51,7 +51,7 @@ double ContactStep::solve(const StepTable& nodal) {
     const double h = nodal.h;
     if (held_ && projected_.h != h) projected_.build_projected(form_.oscillators, nodal);
     const StepTable& table = held_ ? projected_ : nodal;
-    s.begin(h, {});
+    s.begin(h);
     step_.place_hub(h);
     if (!linearize(table)) return kNoSolution;
     // The feet of the last attempt are the first guess, unless they left the expansion.
@@ -127,7 +127,7 @@ bool ContactStep::improve(const StepTable& table, int corrections) {
     ExponentialSegment& s = step_.segment;
     step_.propagate(table);
     step_.propagate_rates(table);
-    step_.place_coordinates(true);
+    step_.place_coordinates();
     place_contact(corrections);
     contact_theta_ = step_.theta;
     contact_theta_dot_ = s.theta_dot;

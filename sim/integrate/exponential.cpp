@@ -23,15 +23,15 @@ struct Fallback {
 
 // Solves for the nodal forcing. Returns the error in units of the tolerance, kNoSolution if the iteration fails.
 double solve_flight(NodalStep& step, const StepTable& table) {
-    step.segment.begin(table.h, FastVibrations(*step.form, table.h));
+    step.segment.begin(table.h);
     step.place_hub(table.h);
     step.propagate_unforced(table);
     FixedPoint iteration(kFlightRounding, kStalled, 0);
     auto status = FixedPoint::Status::going;
     for (int sweep = 0; sweep < kMostSweeps && status == FixedPoint::Status::going; ++sweep) {
-        step.propagate_without_fast(table);
+        step.propagate(table);
         if (!step.form->by_arrays()) step.propagate_rates(table);
-        step.place_coordinates(false);
+        step.place_coordinates();
         status = iteration.add(step.update_forcing(table, nullptr));
     }
     if (status != FixedPoint::Status::settled) return kNoSolution;
@@ -329,6 +329,10 @@ class Exponential final : public Integrator {
 
 std::unique_ptr<Integrator> make_exponential(System& system, double rtol, double atol) {
     return std::make_unique<Exponential>(system, rtol, atol);
+}
+
+Method method_without_modal_form(const System& system) {
+    return system.damping_ratio() > kStiffContact ? Method::cvode_bdf : Method::rk8;
 }
 
 }  // namespace beamcam::sim

@@ -5,7 +5,6 @@
 
 #include "sim/integrate/constants.hpp"
 #include "sim/integrate/exponential_segment.hpp"
-#include "sim/integrate/lane_kernels.hpp"
 #include "sim/integrate/step_errors.hpp"
 
 namespace beamcam::sim {
@@ -53,7 +52,7 @@ void ExponentialSegment::find_largest(std::size_t g) const {
         const Lanes &x = lanes_q_[g * kPoints + k], &dx = lanes_v_[g * kPoints + k];
         squares = larger(squares, x * x + dx * dx / group.square);
     }
-    lane_kernels().combine(Collocation::get().legendre.data(), lanes_f_.data() + g * kNodes, legendre);
+    combine(Collocation::get().legendre, lanes_f_.data() + g * kNodes, legendre);
     for (int j = 0; j < kNodes; ++j) {
         const Lanes c = magnitude(legendre[j]);
         force += c;
@@ -67,16 +66,7 @@ void ExponentialSegment::find_largest(std::size_t g) const {
         of.amplitude = std::sqrt(squares[lane]) +
                        std::min(time * of.force / w, 2 * (of.force + time * force_rate[lane]) / (w * w));
         of.rate = largest_rate(i, of.amplitude, of.force);
-        if (left_out.contains(i)) let_lag(i, of);
     }
-}
-
-// A fast vibration turns about its quasi-static deflection, more slowly by its lag.                       (S52b)
-void ExponentialSegment::let_lag(std::size_t i, Largest& of) const {
-    const double w = form_->oscillators[i].omega, lag = std::fabs(left_out.lag(i));
-    const double vibration = of.amplitude + of.force / (w * w);
-    of.rate += lag * vibration;
-    of.force += (2 * w + lag) * lag * vibration;
 }
 
 // Bound of |q̇| where √(q² + (q̇/ω)²) <= amplitude: from a node on, with s <= 1/(fast − slow) and |ṡ| <= 1, decays move

@@ -33,7 +33,7 @@ const ExponentialSegment::VibrationWorks& ExponentialSegment::vibration_works() 
 }
 
 // Loss of one mode up to s: the fall of its energy and the work of the forcing, ∫2γmv² = m{E(0) − E(t) + ∫f v},
-// E = ½(v² + ω²q²). The forcing κw of a fast vibration does the work ½κw².                           (S54), (S52b)
+// E = ½(v² + ω²q²).                                       (S54)
 double ExponentialSegment::structural_loss(std::size_t i, double s, const double* y) const {
     const Oscillator& o = form_->oscillators[i];
     if (o.gamma == 0) return 0;
@@ -42,12 +42,7 @@ double ExponentialSegment::structural_loss(std::size_t i, double s, const double
     const std::optional<VibrationWork>& of_forcing = vibration_works().forcing[i];
     if (!of_forcing) return form_->mass * fell;
     const double z = 2 * s - 1;
-    double work = (*of_forcing)(z, {x1, dx1});
-    if (left_out.contains(i)) {
-        const double last = of_forcing->deflection(z, x1), start = of_forcing->deflection(-1, q0[i]);
-        work += 0.5 * left_out.stiffness(i) * (last * last - start * start);
-    }
-    return form_->mass * (fell + work);
+    return form_->mass * (fell + (*of_forcing)(z, {x1, dx1}));
 }
 
 // Work of the torque on the part of the vibration α̇ that the nodes do not resolve.

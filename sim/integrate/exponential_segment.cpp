@@ -6,8 +6,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "sim/integrate/lane_kernels.hpp"
-
 namespace beamcam::sim {
 
 ExponentialSegment::ExponentialSegment(std::shared_ptr<const ModalForm> modal_form, const DriveLaw& drive_law,
@@ -26,7 +24,6 @@ ExponentialSegment::ExponentialSegment(std::shared_ptr<const ModalForm> modal_fo
     lanes_v_.resize(groups * kPoints);
     lanes_f_.resize(groups * kNodes);
     taylor_.resize(groups * kNodes);
-    for (auto* lanes : {&lag_, &steady_, &steady_rate_}) lanes->resize(groups);
 }
 
 double ExponentialSegment::theta_dot_at(double p, const double* x) const {
@@ -44,9 +41,6 @@ double ExponentialSegment::theta_dot_at(double p, const double* x) const {
 void ExponentialSegment::transpose() const {
     if (transposed_) return;
     transposed_ = true;
-    for (Lanes& lag : lag_) lag = Lanes{};
-    for (std::size_t i = left_out.first(); i < n_; ++i)
-        if (left_out.contains(i)) lag_[i / kNodes][static_cast<int>(i % kNodes)] = left_out.lag(i);
     for (std::size_t i = 0; i < n_; ++i) {
         const std::size_t group = i / kNodes;
         const int lane = static_cast<int>(i % kNodes);
@@ -81,22 +75,7 @@ void ExponentialSegment::expand(int at) const {
         inverse /= h;
     }
     for (std::size_t g = 0; g < form_->groups.size(); ++g) {
-        lane_kernels().combine(factors.data(), lanes_f_.data() + g * kNodes, taylor_.data() + g * kNodes);
-        if (has_fast(g)) follow_forcing(g, steady_[g], steady_rate_[g]);
-    }
-}
-
-// The response to a forcing that is a polynomial is a polynomial Σ c_j f⁽ʲ⁾ and a free vibration: the first and its
-// rate at the point of the expansion.
-void ExponentialSegment::follow_forcing(std::size_t g, Lanes& value, Lanes& slope) const {
-    const OscillatorLanes& o = form_->groups[g];
-    const Lanes* derivatives = taylor_.data() + g * kNodes;
-    Lanes before{}, here = o.inverse_square;
-    value = slope = Lanes{};
-    for (int j = 0; j < kNodes; ++j) {
-        value += here * derivatives[j];
-        if (j + 1 < kNodes) slope += here * derivatives[j + 1];
-        before = std::exchange(here, -(o.damping * here + before) * o.inverse_square);
+        combine(factors, lanes_f_.data() + g * kNodes, taylor_.data() + g * kNodes);
     }
 }
 
@@ -105,8 +84,8 @@ void ExponentialSegment::evolve(std::size_t g, double t, double s, Lanes& x, Lan
     transpose();
     const int point = last_point(t, s);
     const double tau = (s - Collocation::get().point[static_cast<std::size_t>(point)]) * h;
-    Lanes from_q = lanes_q_[g * kPoints + static_cast<std::size_t>(point)];
-    Lanes from_v = lanes_v_[g * kPoints + static_cast<std::size_t>(point)];
+    const Lanes& from_q = lanes_q_[g * kPoints + static_cast<std::size_t>(point)];
+    const Lanes& from_v = lanes_v_[g * kPoints + static_cast<std::size_t>(point)];
     if (!(tau > std::numeric_limits<double>::epsilon() * std::fabs(t))) {
         x = from_q;
         dx = from_v;
@@ -115,15 +94,14 @@ void ExponentialSegment::evolve(std::size_t g, double t, double s, Lanes& x, Lan
     expand(point);
     Lanes r[kResponse];
     const OscillatorLanes& group = form_->groups[g];
-    if (has_fast(g)) {  // turned back first by the lag of the time that follows
-        Lanes sine, cosine, w = from_q - steady_[g], dw = from_v - steady_rate_[g];
-        small_sine_and_cosine(tau * lag_[g], sine, cosine);
-        turn_back(sine, cosine, group.damped_omega, group.gamma, w, dw);
-        from_q = steady_[g] + w;
-        from_v = steady_rate_[g] + dw;
-    }
     respond(group, tau, r);
-    lane_kernels().evolve(group, r, taylor_.data() + g * kNodes, from_q, from_v, x, dx);
+    const Lanes &unit_rate = r[0], &unit = r[1], *derivatives = taylor_.data() + g * kNodes;
+    x = (unit_rate + group.damping * unit) * from_q + unit * from_v;
+    dx = unit_rate * from_v - group.square * unit * from_q;
+    for (int j = 0; j < kNodes; ++j) {
+        x += derivatives[j] * r[2 + j];
+        dx += derivatives[j] * r[1 + j];
+    }
 }
 
 double ExponentialSegment::coordinate(double t, std::size_t index, double* y) const {

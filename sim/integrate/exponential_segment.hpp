@@ -8,7 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "sim/integrate/fast_vibrations.hpp"
 #include "sim/integrate/integrator.hpp"
 #include "sim/integrate/modal_form.hpp"
 #include "sim/integrate/vibration_work.hpp"
@@ -27,9 +26,8 @@ class ExponentialSegment final : public Segment {
     const MotionBounds* bounds() const override;
     const TouchSamples* touch() const override { return touching ? &samples : nullptr; }
     // A step of this length; its numbers will change.
-    void begin(double length, const FastVibrations& fast) {
+    void begin(double length) {
         h = length;
-        left_out = fast;
         bristle_rate = Lanes{};
         changed();
     }
@@ -43,8 +41,7 @@ class ExponentialSegment final : public Segment {
     double h = 0;                // of the collocation; t1 may lie before t0 + h
     double theta0 = 0, p0 = 0;   // Θ and ∂T/∂Θ̇ at t0
     std::vector<double> q0, v0;  // q, q̇ at t0
-    std::vector<Lanes> q, v, f;  // at the nodes: q, q̇, forcing per mass without that of `left_out`
-    FastVibrations left_out;
+    std::vector<Lanes> q, v, f;  // at the nodes: q, q̇, forcing per mass
     Lanes theta_dot{}, p_dot{};  // Θ̇ and ṗ at the nodes
     double bristle0 = 0;         // z at t0, if the state has it
     Lanes bristle_rate{};        // ż at the nodes
@@ -77,9 +74,7 @@ class ExponentialSegment final : public Segment {
     double frame_angle(double t) const;  // t != t1
     void transpose() const;
     int last_point(double t, double s) const;
-    bool has_fast(std::size_t group) const { return (group + 1) * kNodes > left_out.first(); }
     void expand(int point) const;
-    void follow_forcing(std::size_t group, Lanes& value, Lanes& slope) const;
     void evaluate(double t, bool vibration_work, double* y) const;
     void evolve(std::size_t group, double t, double s, Lanes& x, Lanes& rate) const;
     void evolve_all(double t, double s, double* y) const;
@@ -92,7 +87,6 @@ class ExponentialSegment final : public Segment {
         double force, amplitude, rate;
     };
     void find_largest(std::size_t group) const;
-    void let_lag(std::size_t mode, Largest& of) const;
     double largest_rate(std::size_t mode, double amplitude, double force) const;
     double missed_turning(const VibrationBounds& sum) const;
     double hub_acceleration(const VibrationBounds& sum, double fastest) const;
@@ -111,10 +105,9 @@ class ExponentialSegment final : public Segment {
     mutable Hub hub_;  // valid with `hub_known_`
     mutable int expanded_ = -1;
     // In lanes over eight modes, by group: q, q̇ and f at the nodes (`transposed_`) and q, q̇ at the start; derivatives
-    // of f at the point `expanded_`. Where there are fast vibrations: their lag (0 of others)
-    // and the motion without vibration at that point.
+    // of f at the point `expanded_`.
     mutable bool transposed_ = false;
-    mutable std::vector<Lanes> lanes_q_, lanes_v_, lanes_f_, taylor_, lag_, steady_, steady_rate_;
+    mutable std::vector<Lanes> lanes_q_, lanes_v_, lanes_f_, taylor_;
 };
 
 }  // namespace beamcam::sim

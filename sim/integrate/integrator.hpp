@@ -97,8 +97,10 @@ class Integrator {
     double stop_ = std::numeric_limits<double>::infinity();
 };
 
-// Reads the phase of the system at every `start`.
+// Reads the phase of the system at every `start`. Only for systems with a ModalForm.
 std::unique_ptr<Integrator> make_exponential(System& system, double rtol, double atol);
+// What `auto` means for others: `rk8`, or CVODE's BDF where a mode is damped beyond the critical.
+Method method_without_modal_form(const System& system);
 std::unique_ptr<Integrator> make_rk8(Ode& ode, double rtol, double atol);
 // cvode-adams or cvode-bdf.
 std::unique_ptr<Integrator> make_sundials(Method method, Ode& ode, double rtol, double atol);

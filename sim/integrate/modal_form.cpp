@@ -34,10 +34,15 @@ std::shared_ptr<ModalForm> ModalForm::begin(const System& system, const Model& m
 
 bool modes_are_coordinates(System& system) {
     const auto* model = dynamic_cast<const ModalModel*>(&system.model());
-    return model && (!model->coupled() || system.drive().prescribed());
+    return model && model->kind() != ModelKind::paper && (!model->coupled() || system.drive().prescribed());
+}
+
+bool ModalForm::exists(System& system) {
+    return system.problem().beam.model == ModelKind::exact || modes_are_coordinates(system);
 }
 
 std::shared_ptr<const ModalForm> ModalForm::of(System& system) {
+    BEAMCAM_ASSERT(exists(system));
     return modes_are_coordinates(system) ? by_arrays_of(system) : of_natural_modes(system);
 }
 
@@ -47,7 +52,6 @@ std::shared_ptr<const ModalForm> ModalForm::by_arrays_of(System& system) {
     auto form = begin(system, *model);
     const ModalMatrices& m = model->matrices();
     const int n = form->n;
-    form->paper = model->kind() == ModelKind::paper;
     form->shortening = model->foreshortening();
     form->J = m.J;
     form->S = m.S;
@@ -76,13 +80,7 @@ std::shared_ptr<const ModalForm> ModalForm::by_arrays_of(System& system) {
             form->inertia_rows[static_cast<std::size_t>(i / kNodes * n + j)][i % kNodes] =
                 form->inertia[static_cast<std::size_t>(i * n + j)];
     form->inertia_root = bounding_vector(model->inertia_matrix(), m.M.diagonal() + m.D.diagonal().cwiseAbs());
-    if (form->paper) {
-        copy_rows(m.M + form->radius * m.P1 + 0.5 * m.P2, 1 / form->mass, form->spinning);
-        copy_rows(m.P0, 1 / form->mass, form->second);
-    } else {
-        copy_rows(model->inertia_matrix(), 1 / form->mass, form->spinning);
-        if (model->kind() == ModelKind::first_order) copy_rows(m.G, 1 / form->mass, form->second);
-    }
+    if (model->kind() == ModelKind::first_order) copy_rows(m.G, 1 / form->mass, form->fall);
     return form;
 }
 

@@ -1,7 +1,7 @@
 // The equations of motion in the form of an exponential integrator: oscillators and their coupling. The coupling is
-// given by plain arrays for modal models with a free hub in hub–beam shapes (no coupling through the inertia) or with a
-// prescribed hub in any shapes. For all others it is the difference between their forces of inertia and gravity
-// (InertiaForces) and those of the vibrating straight beam.
+// given by plain arrays for `rigid`, `zeroth-order` and `first-order` with a free hub in hub–beam shapes (no coupling
+// through the inertia) or with a prescribed hub in any shapes. For `exact` it is the difference between its forces of
+// inertia and gravity (InertiaForces) and those of the vibrating straight beam.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,6 +17,8 @@ namespace beamcam::sim {
 bool modes_are_coordinates(System& system);
 
 struct ModalForm {
+    // Other models and shapes have no such form: Runge and Kutta's method integrates them.
+    static bool exists(System& system);
     // Throws InertiaLost and std::domain_error where the straight beam has no positive inertia.
     static std::shared_ptr<const ModalForm> of(System& system);
 
@@ -30,22 +32,13 @@ struct ModalForm {
     void to_coordinates(double* state) const { transform(natural, state); }
     void to_modes(double* state) const { transform(to_natural, state); }
 
-    // κ_ij of f_i = κ_ij q_j [1/s²], for Θ̇² and Y (numbers or lanes).
-    template <class T>
-    T coupling(std::size_t i, std::size_t j, const T& spin, const T& y) const {
-        const std::size_t at = i * static_cast<std::size_t>(n) + j;
-        const T kappa = spin * spinning[at];
-        return second.empty() ? kappa : kappa + y * second[at];
-    }
-
-    bool prescribed = false, paper = false, shortening = false, damped = false;
+    bool prescribed = false, shortening = false, damped = false;
     double J = 0, S = 0, mass = 1, gravity = 0, radius = 0, length = 1;
     std::vector<Oscillator> oscillators;
     std::vector<OscillatorLanes> groups;  // the same, eight by eight
-    // Row-major n × n. f_i = Θ̇² (inertia q)_i + Y (second q)_i + …, Y = g sin Θ, or −Θ̇²(al + ½l²) for `paper`;
-    // per unit of mass.
-    std::vector<double> spinning, second;
-    std::vector<double> inertia;       // B of J + qᵀBq [kg]; empty where the modes are not the coordinates
+    // Row-major n × n, empty where the modes are not the coordinates: B of J + qᵀBq [kg], and G/m, empty for models
+    // without it. f_i = Θ̇² (Bq)_i/m + g sin Θ (Gq)_i/m + …
+    std::vector<double> inertia, fall;
     std::vector<Lanes> inertia_rows;   // the same, eight rows side by side: of each eight, column by column
     std::vector<double> weight;        // W/m
     std::vector<double> U;             // [kg m], zero for a free hub

@@ -43,7 +43,7 @@ void NodalStep::drive_power(const ContactLoad* load) {
     }
     if (!form->prescribed) return;
     Lanes follow{}, jerk{};  // Uᵀq; of the hub
-    for (std::size_t i = 0; i < n; ++i) follow += form->U[i] * steady_deflection(i);
+    for (std::size_t i = 0; i < n; ++i) follow += form->U[i] * s.q[i];
     for (int l = 0; l < kNodes; ++l) jerk += (acceleration_[l] / s.h) * gauss.slope[static_cast<std::size_t>(l)];
     s.rate[kWorkDrive] = jerk * follow + (inertia_ ? drive_power_by_inertia() : drive_power_by_arrays());
     // The drive balances the moment of the contact.
@@ -58,15 +58,14 @@ Lanes NodalStep::drive_power_by_inertia() const {
 }
 
 Lanes NodalStep::drive_power_by_arrays() const {
-    Lanes quadratic = form->mass * fast_inertia_, fall{}, weighted{};
-    if (!form->paper) fall = fast_fall_;
+    Lanes quadratic{}, fall{}, weighted{};
     for (std::size_t i = 0; i < n; ++i) {
         Lanes a{}, b{};
         for (std::size_t j = 0; j < n; ++j) {
-            a += form->inertia[i * n + j] * steady_deflection(j);
-            if (!form->paper && !form->second.empty()) b += form->second[i * n + j] * steady_deflection(j);
+            a += form->inertia[i * n + j] * segment.q[j];
+            if (!form->fall.empty()) b += form->fall[i * n + j] * segment.q[j];
         }
-        const Lanes q = steady_deflection(i);
+        const Lanes& q = segment.q[i];
         quadratic += a * q;
         fall += b * q;
         weighted += form->weight[i] * q;

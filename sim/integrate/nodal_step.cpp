@@ -17,17 +17,16 @@ NodalStep::NodalStep(System& of, std::shared_ptr<const ModalForm> modal_form, do
       evaluations(count),
       rtol_(relative),
       atol_(absolute),
-      fast_amplitude_(n),
-      fast_steady_(n),
       base_q_(n),
       base_v_(n),
       bq_(n),
       gq_(n),
       start_(next.size()) {
     if (form->by_arrays()) return;
-    inertia_ = InertiaForces::of(system.model(), system.problem(), form->natural);
+    inertia_ = std::make_unique<InertiaForces>(system.problem());
     for (auto* v : {&position_, &rate_, &coordinate_acceleration_, &forces_}) v->resize(n + 1);
     mode_acceleration_.resize(n);
+    resistance_.resize(n);
 }
 
 void NodalStep::begin(double t) {
@@ -48,7 +47,11 @@ void NodalStep::begin(double t) {
 }
 
 void NodalStep::propagate_rates(const StepTable& table) {
-    kernels_.propagate_rates(n, table.rows.data(), segment.f.data(), base_v_.data(), segment.v.data());
+    for (std::size_t i = 0; i < n; ++i) {
+        Lanes v = base_v_[i];
+        for (int l = 0; l < kNodes; ++l) v += segment.f[i][l] * table.rows[i].v[static_cast<std::size_t>(l)];
+        segment.v[i] = v;
+    }
 }
 
 void NodalStep::propagate_free(const StepTable& table) {
@@ -62,7 +65,6 @@ void NodalStep::propagate_free(const StepTable& table) {
 void NodalStep::propagate_unforced(const StepTable& table) {
     propagate_free(table);
     for (std::size_t i = 0; i < n; ++i) smooth_force(i, segment.f[i]);
-    weigh_fast(table);
 }
 
 void NodalStep::arrive(const StepTable& table) {
@@ -74,7 +76,6 @@ void NodalStep::arrive(const StepTable& table) {
         next[1 + i] = row.end_qq * s.q0[i] + row.end_qv * s.v0[i] + sum(row.end_q * s.f[i]);
         next[2 + n + i] = row.end_vq * s.q0[i] + row.end_vv * s.v0[i] + sum(row.end_v * s.f[i]);
     }
-    turn_fast_back(table);
     if (s.has_bristle()) next[2 * (n + 1)] = s.bristle0 + h * sum(gauss.b * s.bristle_rate);
     if (form->prescribed) {
         const HubMotion hub = system.drive().motion(s.t0 + h);
@@ -138,7 +139,11 @@ void NodalStep::smooth_force(std::size_t i, Lanes& f) const {
 }
 
 void NodalStep::propagate(const StepTable& table) {
-    kernels_.propagate(n, table.rows.data(), segment.f.data(), base_q_.data(), segment.q.data());
+    for (std::size_t i = 0; i < n; ++i) {
+        Lanes q = base_q_[i];
+        for (int l = 0; l < kNodes; ++l) q += segment.f[i][l] * table.rows[i].q[static_cast<std::size_t>(l)];
+        segment.q[i] = q;
+    }
 }
 
 double NodalStep::update_forcing(const StepTable& table, const ContactLoad* load) {
@@ -151,10 +156,11 @@ double NodalStep::update_by_arrays(const StepTable& table, const ContactLoad* lo
     ExponentialSegment& s = segment;
     const double h = table.h;
     evaluations += kNodes;
-    const Lanes x = s.theta_dot * s.theta_dot, second = second_factor();
-    kernels_.multiply(n, n, form->spinning.data(), s.q.data(), bq_.data());
-    if (!form->second.empty()) kernels_.multiply(n, n, form->second.data(), s.q.data(), gq_.data());
-    Lanes quadratic = fast_inertia_, fall = fast_fall_, weighted{};
+    const Lanes x = s.theta_dot * s.theta_dot, weight = form->gravity * sin;
+    const double per_mass = 1 / form->mass;
+    product(n, n, form->inertia.data(), s.q.data(), bq_.data());
+    if (!form->fall.empty()) product(n, n, form->fall.data(), s.q.data(), gq_.data());
+    Lanes quadratic{}, fall{}, weighted{};
     double change2 = 0;
     for (std::size_t i = 0; i < n; ++i) {
         const Lanes &a = bq_[i], &b = gq_[i];
@@ -163,15 +169,14 @@ double NodalStep::update_by_arrays(const StepTable& table, const ContactLoad* lo
         weighted += form->weight[i] * s.q[i];
         Lanes f;
         smooth_force(i, f);
-        f += x * a + second * b;
-        if (load) f += load->modal(i) * (1 / form->mass);
+        f += x * (per_mass * a) + weight * b;
+        if (load) f += load->modal(i) * per_mass;
         const double d = largest(f - s.f[i]) * std::min(h, 1 / form->oscillators[i].omega);
         change2 += d * d;
         s.f[i] = f;
     }
     const double modal = std::sqrt(change2) / scale_modes;
     if (form->prescribed) return modal;
-    quadratic *= form->mass;
     s.p_dot = -form->gravity * (form->S * cos - form->mass * (weighted * sin + 0.5 * cos * fall)) + torque;
     if (load) s.p_dot += load->torque();
     return std::max(modal, turn_hub(h, form->J + quadratic));
@@ -218,8 +223,7 @@ double NodalStep::forcing_error(double h, const ContactLoad* load) {
     double errors = 0;
     for (std::size_t i = 0; i < n; ++i) {
         const Lanes f = load ? s.f[i] - load->modal(i) * (1 / form->mass) : s.f[i];
-        double e = interpolation_error(f) * std::min(h, 1 / form->oscillators[i].omega);
-        if (s.left_out.contains(i)) e += fast_error(i, h);
+        const double e = interpolation_error(f) * std::min(h, 1 / form->oscillators[i].omega);
         errors += e * e;
     }
     const double modal = std::sqrt(errors) / scale_modes;

@@ -38,15 +38,12 @@ struct NodalStep {
     // Propagates also the part of the forcing that does not depend on q and q̇.
     void propagate_unforced(const StepTable& table);
     void propagate(const StepTable& table);
-    // Propagates also the quasi-static deflection of the fast modes.                                          (S52b)
-    void propagate_without_fast(const StepTable& table);
     void propagate_rates(const StepTable& table);
     // Forcing and hub from the nodal q, and q̇ where the modes are not the coordinates. Returns the largest change in
     // units of the tolerance. `load`: null in flight.
     double update_forcing(const StepTable& table, const ContactLoad* load);
-    // Computes angle and rate of the frame at the nodes where the modes are not the coordinates; in contact, or if the
-    // forces of inertia need them, all coordinates and rates.
-    void place_coordinates(bool in_contact);
+    // Computes coordinates and rates at the nodes where the modes are not the coordinates.
+    void place_coordinates();
     const Lanes* deflection() const { return inertia_ ? position_.data() + 1 : segment.q.data(); }
     const Lanes* deflection_rate() const { return inertia_ ? rate_.data() + 1 : segment.v.data(); }
     const Lanes& frame_rate() const { return inertia_ ? rate_[0] : segment.theta_dot; }
@@ -73,18 +70,9 @@ struct NodalStep {
     Lanes sin{}, cos{};               // of the frame
 
   private:
-    struct Vibration {
-        double w, dw;
-    };
-    Vibration vibration_at_start(std::size_t i, const StepTable::Row& row) const;
-    void weigh_fast(const StepTable& table);
-    void turn_fast_back(const StepTable& table);
-    double fast_error(std::size_t i, double h) const;
-    Lanes second_factor() const;
     void evaluate_angle();
     void advance_angle(const Lanes& to);
     double set_angle(double h);
-    Lanes moment_of_bent_inertia(const Lanes& turn) const;
     double turn_hub(double h, const Lanes& inertia);
     double update_by_arrays(const StepTable& table, const ContactLoad* load);
     double update_by_inertia(const StepTable& table, const ContactLoad* load);
@@ -93,24 +81,14 @@ struct NodalStep {
     void drive_power(const ContactLoad* load);
     Lanes drive_power_by_arrays() const;
     Lanes drive_power_by_inertia() const;
-    // q without fast vibration, which the nodes do not resolve.
-    const Lanes& steady_deflection(std::size_t i) const {
-        return segment.left_out.contains(i) ? fast_steady_[i] : segment.q[i];
-    }
 
     double rtol_, atol_;
     Lanes acceleration_{};
-    // The fast modes: amplitudes of vibration at the start of the step [m], the deflection without it at the nodes, and
-    // the mean contribution of vibration to qᵀBq/m and qᵀGq/m there.
-    std::vector<double> fast_amplitude_;
-    std::vector<Lanes> fast_steady_;
-    Lanes fast_inertia_{}, fast_fall_{};
-    const LaneKernels& kernels_ = lane_kernels();
     std::vector<Lanes> base_q_, base_v_, bq_, gq_;
     std::vector<double> start_;  // of the step, in modes
     // These are null and empty where the modes are the coordinates.
     std::unique_ptr<InertiaForces> inertia_;
-    std::vector<Lanes> position_, rate_, coordinate_acceleration_, mode_acceleration_, forces_;
+    std::vector<Lanes> position_, rate_, coordinate_acceleration_, mode_acceleration_, forces_, resistance_;
     Lanes frame_angle_{};  // of sin and cos
 };
 

@@ -6,10 +6,13 @@
 
 #include "sim/base/assert.hpp"
 #include "sim/integrate/constants.hpp"
-#include "sim/integrate/lane_kernels.hpp"
 
 namespace beamcam::sim {
 namespace {
+
+// Phases beyond lose digits in their reduction; there each response is computed by itself.
+constexpr double kMostRadians = 1e5;
+constexpr int kSeriesTerms = 18;  // of the last two responses, for ωτ < kSeriesRadians
 
 // The responses downwards from the series of the last two: g_j = Σ_k a_k τ^{j+2+k}/(j+2+k)!, a₀ = 1, a₁ = −2γ,
 // a_k = −2γ a_{k−1} − ω² a_{k−2}; carried as a_k τᵏ, which stays small where a_k alone would overflow.
@@ -27,6 +30,43 @@ void descend(double w2, double damping, double tau, const double* power, double*
         r[2 + j] = total;
     }
     for (int j = kNodes - 2; j > 0; --j) r[1 + j] = power[j + 1] - damping * r[2 + j] - w2 * r[3 + j];
+}
+
+// The nearest integer, for |x| < 2⁵¹.
+BEAMCAM_INLINE Lanes nearest(const Lanes& x) {
+    constexpr double kInteger = 0x1.8p52;
+    return (x + kInteger) - kInteger;
+}
+
+// sin z and cos z for 0 <= z <= kMostRadians, to about an ulp: π/2 in three parts, of which the first two have 33 bits
+// so that their multiples are exact (as fdlibm has it), then Taylor's series on |r| <= π/4. Branches are products with
+// 0 and 1, which are exact.
+void sine_and_cosine_of_phase(const Lanes& z, Lanes& sine, Lanes& cosine) {
+    constexpr double kFirst = 0x1.921fb544p+0, kSecond = 0x1.0b4611a6p-34, kRest = 0x1.3198a2e037073p-69;
+    const Lanes k = nearest(z * 0.63661977236758134);
+    Lanes s, c;
+    sine_and_cosine_by_series(((z - k * kFirst) - k * kSecond) - k * kRest, s, c);
+    // k mod 4 = 2 half + odd.
+    const Lanes turns = k * 0.25, twice = 2 * (turns - nearest(turns - 0.375)), half = nearest(twice - 0.25),
+                odd = 2 * (twice - half), even = 1 - odd;
+    sine = (1 - 2 * half) * (odd * c + even * s);
+    cosine = (1 - 2 * (half + odd - 2 * half * odd)) * (odd * s + even * c);
+}
+
+// The last two responses by their series, the others downwards from them.
+void descend(const OscillatorLanes& group, const double* power, Lanes* out) {
+    Lanes top{}, next_to_top{}, a = Lanes{} + 1.0, before{};
+    for (int k = 0; k < kSeriesTerms; ++k) {
+        top += a * power[kNodes + 1 + k];
+        next_to_top += a * power[kNodes + k];
+        const Lanes next = -(group.damping * a) - group.square * before;
+        before = a;
+        a = next;
+    }
+    out[kNodes - 1] = top;
+    out[kNodes - 2] = next_to_top;
+    for (int j = kNodes - 3; j >= 0; --j)
+        out[j] = power[j + 2] - group.damping * out[j + 1] - group.square * out[j + 2];
 }
 
 // ∫₀^τ e^{−r(τ−u)} u^{k−1}/(k−1)! du = ψ_k(rτ) τᵏ/k!, k = 1…8: ψ₁(x) = (1 − e^{−x})/x, ψ_{k+1} = (k+1)(1 − ψ_k)/x,
@@ -54,7 +94,7 @@ void respond_by_decays(const Decays& d, const double* power, double tau, double*
     for (int j = 0; j < kNodes; ++j) r[2 + j] = power[j + 1] * (slow[j] - fast[j]) / d.apart();
 }
 
-// q and v at a point of a step, over the nodal forcing, of the polynomial motion that follows it.               (S52b)
+// q and v at a point of a step, over the nodal forcing, of the polynomial motion that follows it.               (S52c)
 void follow_forcing(const Oscillator& o, const StepTable::Powers& inverse, std::size_t point, Lanes& q, Lanes& v) {
     const std::array<Lanes, kNodes>& derive = Collocation::get().derive[point];
     const std::array<double, kNodes> c = following(o);
@@ -74,7 +114,7 @@ StepTable::Powers inverse_powers(double h) {
 
 }  // namespace
 
-bool hardly_damped(const Oscillator& o) { return o.gamma <= kMostDampingOfFast * o.omega; }
+bool hardly_damped(const Oscillator& o) { return o.gamma <= kMostDampingOfProjected * o.omega; }
 
 std::array<double, kNodes> following(const Oscillator& o) {
     const double w2 = o.omega * o.omega;
@@ -162,10 +202,33 @@ void respond(const OscillatorLanes& group, double tau, Lanes* r) {
         }
         return;
     }
-    Lanes decay = Lanes{} + 1.0;
+    Lanes sine, cosine;
+    sine_and_cosine_of_phase(group.damped_omega * tau, sine, cosine);
     if (group.damped)
-        for (int k = 0; k < kNodes; ++k) decay[k] = std::exp(-group.gamma[k] * tau);
-    lane_kernels().respond(group, tau, decay, r);
+        for (int k = 0; k < kNodes; ++k) {
+            const double decay = std::exp(-group.gamma[k] * tau);
+            sine[k] *= decay;
+            cosine[k] *= decay;
+        }
+    r[1] = sine * group.inverse_damped;
+    r[0] = cosine - group.gamma * r[1];
+    double power[kNodes + 2 + kSeriesTerms];  // τʲ/j!
+    power[0] = 1;
+    for (int j = 1; j < kNodes + 2 + kSeriesTerms; ++j) power[j] = power[j - 1] * (tau / j);
+    const bool any_slow = group.slowest * tau < kSeriesRadians, all_slow = group.fastest * tau < kSeriesRadians;
+    if (all_slow) return descend(group, power, r + 2);
+    Lanes before = r[0], last = r[1];
+    for (int j = 0; j < kNodes; ++j) {
+        const Lanes next = (power[j] - group.damping * last - before) * group.inverse_square;
+        before = last;
+        last = r[2 + j] = next;
+    }
+    if (!any_slow) return;
+    Lanes down[kNodes];
+    descend(group, power, down);
+    for (int k = 0; k < kNodes; ++k)
+        if (group.omega[k] * tau < kSeriesRadians)
+            for (int j = 0; j < kNodes; ++j) r[2 + j][k] = down[j][k];
 }
 
 void StepTable::build(const std::vector<Oscillator>& oscillators, const std::vector<OscillatorLanes>& groups,

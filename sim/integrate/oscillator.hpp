@@ -14,7 +14,7 @@ struct Oscillator {
     double gamma = 0;  // γ [1/s], >= 0
 };
 
-bool hardly_damped(const Oscillator& oscillator);  // ζ <= kMostDampingOfFast
+bool hardly_damped(const Oscillator& oscillator);  // ζ <= kMostDampingOfProjected
 // c_j of the polynomial motion Σ c_j f⁽ʲ⁾ that follows a polynomial forcing without vibration [s^{2+j}].
 std::array<double, kNodes> following(const Oscillator& oscillator);
 
@@ -51,7 +51,7 @@ struct StepTable {
         Lanes end_q, end_v;  // over l
         double end_qq, end_qv, end_vq, end_vv;
         // Oscillators that turn by more than kAliasedRadians: q and v at the start, over l, of the polynomial motion
-        // that follows the forcing without vibration.                                                        (S52b)
+        // that follows the forcing without vibration.                                                        (S52c)
         Lanes steady, steady_rate;
     };
     using Powers = std::array<double, kNodes>;  // 1/hʲ

@@ -21,8 +21,6 @@ class VibrationWork {
     VibrationWork(const Oscillator& oscillator, const Lanes& g, const Lanes& f, double h, Position start);
     // Up to z, where the oscillator is at `now` [unit of g times that of q].
     double operator()(double z, Position now) const;
-    // The distance of q from the motion that follows the forcing without vibration. Below critical damping.
-    double deflection(double z, double q) const { return q - vibration_->steady(z); }
 
   private:
     using ProductIntegral = StepPowers<2 * kNodes>;  // ∫ a b dt, from z = 0 on

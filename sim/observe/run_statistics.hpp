@@ -22,6 +22,7 @@ struct Fallbacks {
 // Counts so far.
 struct RunStatistics {
     Counters counters;
+    Method method = Method::automatic;  // of all steps but those of a fallback
     long floored = 0;   // touches slower than the approach floor
     long chatters = 0;  // ends of chatter in sustained contact
     Fallbacks fallbacks;

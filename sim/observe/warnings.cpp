@@ -106,8 +106,8 @@ void warn_of_fallbacks(const Problem& problem, const Result& result, const RunSt
             "disturbance makes it fall");
     if (f.friction_changes > 0)
         out.push_back(fmt::format(
-            "in {} the friction alternated between stick and slip at one instant and kept its state: tighten "
-            "solver.rtol, or give contact.friction a damping",
+            "in {} the friction alternated between stick and slip at one instant and kept its state: "
+            "tighten solver.rtol",
             counted(f.friction_changes, "step")));
     if (f.strikes > 0)
         out.push_back(

@@ -8,15 +8,23 @@
 #include <utility>
 
 #include "sim/base/assert.hpp"
+#include "sim/integrate/constants.hpp"
 #include "sim/integrate/integrator.hpp"
+#include "sim/integrate/modal_form.hpp"
 
 namespace beamcam::sim {
 namespace {
 
-std::unique_ptr<Integrator> make_integrator(const Solver& solver, System& dynamics) {
-    const double share = solver.method == Method::automatic ? kLocalShare : 1;
+Method method_of(const Solver& solver, System& dynamics) {
+    return solver.method == Method::automatic && !ModalForm::exists(dynamics) ? method_without_modal_form(dynamics)
+                                                                              : solver.method;
+}
+
+std::unique_ptr<Integrator> make_integrator(const Solver& solver, Method method, System& dynamics) {
+    double share = solver.method == Method::automatic ? kLocalShare : 1;
+    if (method == Method::cvode_bdf && method != solver.method) share *= kShareOfBdf;
     const double rtol = share * solver.rtol, atol = share * solver.atol;
-    switch (solver.method) {
+    switch (method) {
         case Method::automatic:
             return make_exponential(dynamics, rtol, atol);
         case Method::rk8:
@@ -25,7 +33,7 @@ std::unique_ptr<Integrator> make_integrator(const Solver& solver, System& dynami
         case Method::cvode_bdf:
             break;
     }
-    return make_sundials(solver.method, dynamics, rtol, atol);
+    return make_sundials(method, dynamics, rtol, atol);
 }
 
 }  // namespace
@@ -37,8 +45,9 @@ Run::Run(const Problem& problem, std::span<const Request> requests, const Progre
       dynamics_(problem),
       probe_(dynamics_),
       output_(dynamics_, requests, options.observer, [this] { return statistics(); }),
-      integrator_(options.around ? options.around(dynamics_, make_integrator(problem.solver, dynamics_))
-                                 : make_integrator(problem.solver, dynamics_)),
+      method_(method_of(problem.solver, dynamics_)),
+      integrator_(options.around ? options.around(dynamics_, make_integrator(problem.solver, method_, dynamics_))
+                                 : make_integrator(problem.solver, method_, dynamics_)),
       touch_search_(probe_, state_, [this](double t) { report(t); }),
       contact_guards_(probe_, state_),
       transitions_(dynamics_, probe_.system, *integrator_, state_, output_),
@@ -219,6 +228,7 @@ RunStatistics Run::statistics() const {
                     .rhs_evaluations = done.rhs,
                     .gap_evaluations = dynamics_.gap_evaluations + probe_.system.gap_evaluations,
                     .jacobians = done.jacobians};
+    all.method = method_;
     all.fallbacks.coarse = probe_.coarse;
     all.fallbacks.steps = done.fallback_steps;
     all.fallbacks.handed_over = done.handed_over;

@@ -57,6 +57,7 @@ class Run {
     SegmentProbe probe_;
     RunState state_;
     RunOutput output_;
+    const Method method_;  // of the integrator: what "auto" means here
     std::unique_ptr<Integrator> integrator_;
     TouchSearch touch_search_;
     ContactGuards contact_guards_;

@@ -183,18 +183,14 @@ TEST_P(StickSlipMotion, IsThatOfTheRungeKuttaMethod) {
     EXPECT_LT(fast.result.energy_residual_max, 1e-8 * fast.result.energy_scale);
 }
 
-void second_order(Problem& p) { p.beam.model = ModelKind::second_order; }
 void exact(Problem& p) { p.beam.model = ModelKind::exact; }
-void clamped(Problem& p) { p.beam.basis = Basis::cantilever; }
 void hub(Problem& p) { p.hub = {0.1, 0.02, HarmonicTorque{0.2, 3, 0}}; }
 
 INSTANTIATE_TEST_SUITE_P(All, StickSlipMotion,
                          ::testing::Values(Case{"Plain", {0.3, {}, {}}}, Case{"NoOffset", {0.3, {}, {}}, 0},
                                            Case{"StaticLarger", {0.2, 0.3, {}}}, Case{"Soft", {0.3, {}, 1e4}},
                                            Case{"Stiff", {0.3, {}, 1e8}}, Case{"StiffStaticLarger", {0.3, 0.4, 1e5}},
-                                           Case{"SecondOrder", {0.3, {}, {}}, 0.0184, 1500, second_order},
                                            Case{"Exact", {0.3, {}, {}}, 0.0184, 1500, exact},
-                                           Case{"Clamped", {0.3, {}, {}}, 0.0184, 1500, clamped},
                                            Case{"OnAHub", {0.3, 0.4, {}}, 0.0184, 1500, hub}),
                          [](const auto& given) { return given.param.name; });
 

@@ -12,7 +12,6 @@
 #include "sim/integrate/gap_probe.hpp"
 #include "sim/integrate/inertia_forces.hpp"
 #include "sim/integrate/integrator.hpp"
-#include "sim/integrate/lane_kernels.hpp"
 #include "sim/integrate/nodal_step.hpp"
 #include "tests/sanitizers.hpp"
 #include "tests/sim/support.hpp"
@@ -161,34 +160,6 @@ TEST(NodalErrors, OfWhatIsNoNumberAreNoNumbers) {
     EXPECT_EQ(quadrature_error(Lanes{} + 1, 1e-12), 0);
 }
 
-TEST(LaneKernels, GiveTheSameBitsOnEveryInstructionSet) {
-    Dice dice(5);
-    constexpr std::size_t kRows = 7, kColumns = 9;
-    const OscillatorLanes group =
-        pack_oscillators({{90, 0}, {300, 5}, {3e3, 2}, {8e3, 0}, {2e4, 0}, {4e4, 7}, {1e5, 0}, {3e5, 9}}).front();
-    std::vector<double> a(kRows * kColumns);
-    for (double& value : a) value = dice.about_zero(3);
-    std::vector<Lanes> x(kColumns), first, y(kRows);
-    for (Lanes& lanes : x)
-        for (int k = 0; k < kNodes; ++k) lanes[k] = dice.about_zero(2);
-    for (const LaneKernels& kernels : runnable_lane_kernels()) {
-        kernels.multiply(kRows, kColumns, a.data(), x.data(), y.data());
-        for (const double tau : {1e-6, 1e-4, 1e-2}) {  // all slow, some, none
-            Lanes r[kResponse], q, v, derivatives[kNodes];
-            kernels.respond(group, tau, x[0], r);
-            kernels.combine(x.data(), x.data() + 1, derivatives);
-            kernels.evolve(group, r, derivatives, x[1], x[2], q, v);
-            y.insert(y.end(), {q, v});
-            y.insert(y.end(), std::begin(r), std::end(r));
-        }
-        if (first.empty()) first = y;
-        ASSERT_EQ(y.size(), first.size());
-        for (std::size_t r = 0; r < y.size(); ++r)
-            for (int k = 0; k < kNodes; ++k) EXPECT_EQ(y[r][k], first[r][k]) << kernels.name << " " << r;
-        y.resize(kRows);
-    }
-}
-
 // ---- gap -----------------------------------------------------------------------------------------
 
 TEST(GapProbe, SeesWhatTheContactIs) {
@@ -229,61 +200,47 @@ TEST(GapProbe, SeesWhatTheContactIs) {
 
 // ---- inertia -------------------------------------------------------------------------------------
 
-// At the accelerations of the model itself only bending holds inertia and gravity: of the coordinates, or of the
-// natural modes.
+// At the accelerations of the model itself only bending holds inertia and gravity.
 TEST(InertiaForces, AreThoseOfTheModelAtEveryNode) {
     Dice dice(5);
-    for (const ModelKind kind :
-         {ModelKind::zeroth_order, ModelKind::first_order, ModelKind::paper, ModelKind::second_order, ModelKind::exact})
-        for (const Basis basis : {Basis::hub_beam, Basis::cantilever}) {
-            Problem p;
-            p.beam.model = kind;
-            p.beam.basis = basis;
-            p.beam.modes = 5;
-            p.hub.radius = 0.1;
-            p.hub.inertia = 0.3;
-            System system(p);
-            const std::shared_ptr<const ModalForm> form = ModalForm::of(system);
-            if (form->by_arrays()) continue;  // needs no such forces
-            const std::unique_ptr<Model> model = make_model(p);
-            const std::unique_ptr<InertiaForces> inertia = InertiaForces::of(*model, p, form->natural);
-            const Eigen::Index n = model->size();
-            const Eigen::MatrixXd to_own =
-                inertia->in_modes() ? form->to_natural : Eigen::MatrixXd(Eigen::MatrixXd::Identity(n, n));
-            std::vector<Lanes> position(static_cast<std::size_t>(n)), rate = position, acceleration = position,
-                                                                      forces = position;
-            Lanes sine, cosine;
-            Eigen::MatrixXd bending(n, kNodes);
-            const Eigen::MatrixXd stiffness = model->linearize().stiffness;
-            for (int k = 0; k < kNodes; ++k) {
-                Eigen::VectorXd xi(n), dxi(n), f(n);
-                for (Eigen::Index i = 0; i < n; ++i) {
-                    const double size = i == 0 ? 1 : 0.1 / std::pow(static_cast<double>(i), 3);
-                    xi[i] = dice.about_zero(size);
-                    dxi[i] = dice.about_zero(10 * size);
-                }
-                model->set(xi.data(), dxi.data());
-                ASSERT_TRUE(model->assemble(f.data()));
-                model->solve(f.data());
-                const auto put = [&](const Eigen::VectorXd& of, std::vector<Lanes>& into) {
-                    const Eigen::VectorXd own = to_own * of;
-                    for (Eigen::Index i = 0; i < n; ++i) into[static_cast<std::size_t>(i)][k] = own[i];
-                };
-                put(xi, position);
-                put(dxi, rate);
-                put(f, acceleration);
-                sine[k] = std::sin(xi[0]);
-                cosine[k] = std::cos(xi[0]);
-                bending.col(k) = to_own.inverse().transpose() * (stiffness * xi);
-            }
-            inertia->evaluate(
-                {rate[0], acceleration[0], position.data() + 1, rate.data() + 1, acceleration.data() + 1, sine, cosine},
-                forces.data());
-            for (int k = 0; k < kNodes; ++k)
-                for (Eigen::Index i = 0; i < n; ++i)
-                    EXPECT_NEAR(forces[static_cast<std::size_t>(i)][k], -bending(i, k), 1e-12 * bending.col(k).norm())
-                        << name(kind) << " " << name(basis) << " " << i;
+    Problem p;
+    p.beam.model = ModelKind::exact;
+    p.beam.modes = 5;
+    p.hub.radius = 0.1;
+    p.hub.inertia = 0.3;
+    const std::unique_ptr<Model> model = make_model(p);
+    InertiaForces inertia(p);
+    const Eigen::Index n = model->size();
+    std::vector<Lanes> position(static_cast<std::size_t>(n)), rate = position, acceleration = position,
+                                                              forces = position;
+    Lanes sine, cosine;
+    Eigen::MatrixXd bending(n, kNodes);
+    const Eigen::MatrixXd stiffness = model->linearize().stiffness;
+    for (int k = 0; k < kNodes; ++k) {
+        Eigen::VectorXd xi(n), dxi(n), f(n);
+        for (Eigen::Index i = 0; i < n; ++i) {
+            const double size = i == 0 ? 1 : 0.1 / std::pow(static_cast<double>(i), 3);
+            xi[i] = dice.about_zero(size);
+            dxi[i] = dice.about_zero(10 * size);
         }
+        model->set(xi.data(), dxi.data());
+        ASSERT_TRUE(model->assemble(f.data()));
+        model->solve(f.data());
+        for (Eigen::Index i = 0; i < n; ++i) {
+            const auto entry = static_cast<std::size_t>(i);
+            position[entry][k] = xi[i];
+            rate[entry][k] = dxi[i];
+            acceleration[entry][k] = f[i];
+        }
+        sine[k] = std::sin(xi[0]);
+        cosine[k] = std::cos(xi[0]);
+        bending.col(k) = stiffness * xi;
+    }
+    inertia.evaluate({rate[0], acceleration[0], position.data() + 1, rate.data() + 1, acceleration.data() + 1, sine, cosine},
+                     forces.data());
+    for (int k = 0; k < kNodes; ++k)
+        for (Eigen::Index i = 0; i < n; ++i)
+            EXPECT_NEAR(forces[static_cast<std::size_t>(i)][k], -bending(i, k), 1e-12 * bending.col(k).norm()) << i;
 }
 
 // ---- flight --------------------------------------------------------------------------------------
@@ -343,49 +300,34 @@ Flights flights() {
     all.add("angle table", ModelKind::first_order, 2, [](Problem& p) {
         p.hub.drive = AngleTable{{0, 0.1, 0.25}, {0.5, 0.7, 0.4}};
     });
-    all.add("paper, prescribed", ModelKind::paper, 3, [](Problem& p) { p.hub.drive = SpinUp{6, 0.2}; });
     return all;
 }
 
-// Models whose coupling is not given by arrays.
-Flights flights_of_other_models() {
+// The coupling of `exact` is not given by arrays.
+Flights flights_of_exact() {
     Flights all;
-    const auto stiff = [](Problem& p) { p.beam.youngs_modulus = 68.952e9; };
-    for (const ModelKind kind : {ModelKind::second_order, ModelKind::exact}) {
-        const std::string model = kind == ModelKind::exact ? "exact" : "second-order";
-        all.add(model, kind, 4, stiff);
-        all.add(model + ", damped", kind, 3, [&](Problem& p) {
-            stiff(p);
-            p.beam.damping_ratio = {0.02};
+    const auto add = [&](const std::string& name, int modes, const std::function<void(Problem&)>& change) {
+        all.add("exact" + name, ModelKind::exact, modes, [&](Problem& p) {
+            p.beam.youngs_modulus = 68.952e9;
+            change(p);
         });
-        all.add(model + ", torque", kind, 3, [&](Problem& p) {
-            stiff(p);
-            p.hub.drive = HarmonicTorque{1, 4, 0.3};
-            p.beam.kelvin_voigt = 1e-5;
-        });
-        all.add(model + ", spin-up", kind, 4, [&](Problem& p) {
-            stiff(p);
-            p.hub.drive = SpinUp{3, 0.2};
-            p.beam.damping_ratio = {0.01};
-        });
-        all.add(model + ", angle table", kind, 2, [&](Problem& p) {
-            stiff(p);
-            p.hub.radius = 0.15;
-            p.hub.drive = AngleTable{{0, 0.1, 0.25}, {0.5, 0.7, 0.4}};
-        });
-        all.add(model + ", bending far", kind, 2, [](Problem& p) { p.beam.youngs_modulus = 5e8; });
-        all.back().spans_vibration = false;
-    }
-    const auto clamped = [&](Problem& p) {
-        stiff(p);
-        p.beam.basis = Basis::cantilever;
     };
-    all.add("clamped shapes", ModelKind::first_order, 5, clamped);
-    all.add("clamped shapes, damped torque", ModelKind::first_order, 3, [&](Problem& p) {
-        clamped(p);
-        p.hub.drive = ConstantTorque{0.8};
-        p.beam.kelvin_voigt = 1e-4;
+    add("", 4, [](Problem&) {});
+    add(", damped", 3, [](Problem& p) { p.beam.damping_ratio = {0.02}; });
+    add(", torque", 3, [](Problem& p) {
+        p.hub.drive = HarmonicTorque{1, 4, 0.3};
+        p.beam.kelvin_voigt = 1e-5;
     });
+    add(", spin-up", 4, [](Problem& p) {
+        p.hub.drive = SpinUp{3, 0.2};
+        p.beam.damping_ratio = {0.01};
+    });
+    add(", angle table", 2, [](Problem& p) {
+        p.hub.radius = 0.15;
+        p.hub.drive = AngleTable{{0, 0.1, 0.25}, {0.5, 0.7, 0.4}};
+    });
+    add(", bending far", 2, [](Problem& p) { p.beam.youngs_modulus = 5e8; });
+    all.back().spans_vibration = false;
     return all;
 }
 
@@ -416,16 +358,15 @@ void expect_those_of_runge_and_kutta(const Flights& flights) {
                 EXPECT_NEAR(fast.tables[0].values[c][row], slow.tables[0].values[c][row], 2e-8 * size)
                     << flight.name << ", " << name(slow.tables[0].channels[c]) << " at " << times[row];
         }
-        if (p.beam.model == ModelKind::paper) continue;
         for (const double residual : fast.tables[0].values[5])
             EXPECT_LT(std::fabs(residual), 1e-8 * fast.energy_scale) << flight.name;
         EXPECT_LT(fast.energy_residual_max, 1e-9 * fast.energy_scale) << flight.name;
     }
 }
 TEST(ExponentialFlight, AgreesWithRungeKuttaAtEveryInstant) { expect_those_of_runge_and_kutta(flights()); }
-TEST(ExponentialFlight, OfOtherModelsAgreesWithRungeKuttaAtEveryInstant) {
+TEST(ExponentialFlight, OfExactAgreesWithRungeKuttaAtEveryInstant) {
     SKIP_UNDER_SANITIZERS();
-    expect_those_of_runge_and_kutta(flights_of_other_models());
+    expect_those_of_runge_and_kutta(flights_of_exact());
 }
 
 TEST(ExponentialFlight, SpansManyPeriodsOfVibration) {
@@ -437,47 +378,12 @@ TEST(ExponentialFlight, SpansManyPeriodsOfVibration) {
     EXPECT_LT(static_cast<double>(r.counters.steps), 1e-2 * 0.36 * system.highest_frequency());
 }
 
-// Rotation and weight change the frequency of vibration by κ/(2ω), 0.05 rad in half a second: steps that span many
-// periods keep its phase, however much it is damped, whatever drives the hub.
-TEST(ExponentialFlight, KeepsThePhaseOfFastVibration) {
-    for (const double ratio : {0.0, 0.002})
-        for (const int drive : {0, 1, 2}) {
-            Problem p = falling_beam(ModelKind::first_order, Basis::automatic, 3);
-            p.initial.angular_velocity = 8;
-            p.initial.q_dot = {0.1, 0.1, 0.1};
-            p.beam.damping_ratio = {ratio};
-            if (drive == 1) p.hub.drive = HarmonicTorque{1, 4, 0.3};
-            if (drive == 2) p.hub.drive = ConstantSpeed{8};
-            std::vector<double> times;
-            for (int k = 0; k <= 200; ++k) times.push_back(0.5 + 1e-4 * k);
-            Request request;
-            request.tables.push_back({times, {channel("q1"), channel("q2"), channel("q3"), channel("theta")}});
-            const auto solve = [&](Method method, double rtol) {
-                p.solver.method = method;
-                set_tolerance(p, rtol);
-                return simulate(p, request);
-            };
-            const Result fast = solve(Method::automatic, 3e-3), slow = solve(Method::rk8, 1e-11);
-            System system(p);
-            EXPECT_LT(static_cast<double>(fast.counters.steps), 0.52 * system.highest_frequency() / 14);
-            for (std::size_t c = 0; c < 4; ++c) {
-                const std::vector<double>&a = fast.tables[0].values[c], &b = slow.tables[0].values[c];
-                double error = 0, size = 0;
-                for (std::size_t k = 0; k < times.size(); ++k) {
-                    error = std::max(error, std::fabs(a[k] - b[k]));
-                    size = std::max(size, std::fabs(b[k]));
-                }
-                EXPECT_LT(error, 2e-3 * size) << "ζ = " << ratio << ", drive " << drive << ", column " << c;
-            }
-        }
-}
-
 // A soft beam: its modes turn by less than half a radian in the first step, which is short because it is the first.
 TEST(ExponentialFlight, TakesSoftBeamsOfEveryModelAndHub) {
-    for (const ModelKind kind : {ModelKind::first_order, ModelKind::second_order, ModelKind::exact})
+    for (const ModelKind kind : {ModelKind::first_order, ModelKind::exact})
         for (const bool held : {false, true})
             for (const Basis basis : {Basis::automatic, Basis::cantilever}) {
-                if (kind == ModelKind::exact && basis == Basis::cantilever) continue;
+                if (basis == Basis::cantilever && (kind == ModelKind::exact || !held)) continue;
                 Problem p = falling_beam(kind, basis, 3);
                 p.beam.length = 8;
                 p.hub.inertia = 300;
@@ -542,10 +448,6 @@ FlightSample flight_sample(System& system, const Segment& segment, double t) {
     return s;
 }
 
-bool leaves_vibration_out(const Segment& segment) {
-    return dynamic_cast<const ExponentialSegment&>(segment).left_out.any();
-}
-
 // Turning and vibrating; faster vibration is smaller.
 std::vector<double> vibrating_state(const System& system, Dice& dice) {
     std::vector<double> y(static_cast<std::size_t>(system.size));
@@ -584,7 +486,7 @@ TEST(ExponentialFlight, KeepsTheBoundsThatItPromises) {
             ASSERT_NE(b, nullptr);
             ++steps;
             if (std::isfinite(b->theta_ddot)) ++finite;
-            if (leaves_vibration_out(segment)) ++fast;
+            if (system.highest_frequency() * (segment.t1 - segment.t0) > 14) ++fast;
             FlightSample before = flight_sample(system, segment, segment.t0);
             for (int k = 1; k <= kSamples; ++k) {
                 const double h = segment.t1 - segment.t0;
@@ -678,21 +580,17 @@ TEST(ExponentialFlight, HasTheSameStateWithoutTheWorkOfVibration) {
 }
 
 // In natural modes the bounds are of another frame than that of Θ: together they bound the motion of every point.
-TEST(ExponentialFlight, KeepsTheBoundsOfOtherModels) {
+TEST(ExponentialFlight, KeepsTheBoundsOfExact) {
     constexpr int kSamples = 60, kPoints = 5;
     constexpr double kSlack = 1 + 1e-9;
     Dice dice(7);
     int spanning = 0;
     for (int repeat = 0; repeat < 24; ++repeat) {
-        const ModelKind kind = repeat % 3 == 0   ? ModelKind::exact
-                               : repeat % 3 == 1 ? ModelKind::second_order
-                                                 : ModelKind::first_order;
-        Problem p = falling_beam(kind, kind == ModelKind::first_order ? Basis::cantilever : Basis::automatic,
-                                 1 + dice.one_of(4));
+        Problem p = falling_beam(ModelKind::exact, Basis::automatic, 1 + dice.one_of(4));
         p.hub.radius = dice.between(0, 0.5);
         p.hub.inertia = std::pow(10, dice.between(-3, 1));
         if (dice.one_of(2)) p.hub.drive = HarmonicTorque{dice.about_zero(5), dice.between(0, 5), 1};
-        if (kind != ModelKind::first_order && repeat % 4 == 3) p.hub.drive = SpinUp{dice.about_zero(10), 0.1};
+        if (repeat % 4 == 3) p.hub.drive = SpinUp{dice.about_zero(10), 0.1};
         if (dice.one_of(3) == 0) p.beam.kelvin_voigt = std::pow(10, dice.between(-7, -4));
         System system(p);
         const double rtol = std::pow(10, dice.between(-7, -3)), reach = p.hub.radius + p.beam.length;
@@ -700,7 +598,7 @@ TEST(ExponentialFlight, KeepsTheBoundsOfOtherModels) {
         std::vector<double> y(static_cast<std::size_t>(system.size));
         const auto n = static_cast<std::size_t>(system.coordinates());
         // `exact` bends by up to half a radian.
-        const double small = kind == ModelKind::exact ? std::pow(10, dice.between(-3, -0.5)) : 1e-3 * p.beam.length;
+        const double small = std::pow(10, dice.between(-3, -0.5));
         y[0] = dice.about_zero(3);
         y[n] = dice.about_zero(10);
         for (std::size_t i = 1; i < n; ++i) {
@@ -802,17 +700,15 @@ Problem random_covered_contact(unsigned seed) {
     }
 }
 
-// The same of models whose modes are not their coordinates.
-Problem random_contact_of_other_models(unsigned seed) {
+// A random contact of a beam of the model `exact`.
+Problem random_contact_of_exact(unsigned seed) {
     for (;; seed += 1000) {
         Problem p = random_covered_contact(seed);
         Dice dice(seed + 17);
         p.beam.modes = 1 + dice.one_of(4);
         p.beam.damping_ratio.resize(std::min<std::size_t>(p.beam.damping_ratio.size(), 1));
-        const int kind = dice.one_of(3);
-        p.beam.model = kind == 0 ? ModelKind::second_order : kind == 1 ? ModelKind::exact : ModelKind::first_order;
-        if (kind == 2) p.beam.basis = Basis::cantilever;
-        if (kind != 2 && seed % 4 == 0) p.hub.drive = ConstantSpeed{-1};
+        p.beam.model = ModelKind::exact;
+        if (seed % 4 == 0) p.hub.drive = ConstantSpeed{-1};
         if (is_plain(p)) return p;
     }
 }
@@ -859,43 +755,36 @@ void expect_the_impacts_of_runge_and_kutta(Problem (*random)(unsigned), int coun
 TEST(ExponentialContact, HasTheImpactsOfRungeKutta) {
     expect_the_impacts_of_runge_and_kutta(random_covered_contact, seeds(8));
 }
-TEST(ExponentialContact, OfOtherModelsHasTheImpactsOfRungeKutta) {
+TEST(ExponentialContact, OfExactHasTheImpactsOfRungeKutta) {
     SKIP_UNDER_SANITIZERS();
-    expect_the_impacts_of_runge_and_kutta(random_contact_of_other_models, seeds(8));
+    expect_the_impacts_of_runge_and_kutta(random_contact_of_exact, seeds(8));
 }
 // A contact takes far fewer steps than the fastest mode has radians.
-TEST(ExponentialContact, OfOtherModelsStepsOverVibration) {
-    for (const ModelKind kind : {ModelKind::second_order, ModelKind::exact}) {
-        Problem p;
-        p.beam.model = kind;
-        p.beam.modes = 12;
-        const Result r = solve(p, Method::automatic, 1e-5, 0.4);
-        ASSERT_FALSE(r.impacts.empty());
-        ASSERT_EQ(r.steps_by_method.size(), 1u) << name(kind);
-        EXPECT_EQ(r.steps_by_method[0].first, Method::automatic) << name(kind);
-        System system(p);
-        EXPECT_LT(static_cast<double>(r.counters.steps), 0.1 * 0.4 * system.highest_frequency()) << name(kind);
-    }
+TEST(ExponentialContact, OfExactStepsOverVibration) {
+    Problem p;
+    p.beam.model = ModelKind::exact;
+    p.beam.modes = 12;
+    const Result r = solve(p, Method::automatic, 1e-5, 0.4);
+    ASSERT_FALSE(r.impacts.empty());
+    ASSERT_EQ(r.steps_by_method.size(), 1u);
+    EXPECT_EQ(r.steps_by_method[0].first, Method::automatic);
+    System system(p);
+    EXPECT_LT(static_cast<double>(r.counters.steps), 0.1 * 0.4 * system.highest_frequency());
 }
 
-// Clamped shapes leave a hub without inertia so little of it that bending changes it by half and more.
-TEST(ExponentialContact, CoversShapesThatTakeTheInertiaOfTheHub) {
-    SKIP_UNDER_SANITIZERS();
-    for (const ModelKind kind : {ModelKind::first_order, ModelKind::zeroth_order}) {
+// `auto` is Runge and Kutta's method where the shapes are coupled through the inertia, and implicit if they are damped
+// beyond the critical.
+TEST(ExponentialContact, LeavesCoupledShapesToOtherMethods) {
+    for (const ModelKind kind : {ModelKind::first_order, ModelKind::paper, ModelKind::second_order}) {
         Problem p;
         p.beam.model = kind;
         p.beam.basis = Basis::cantilever;
-        p.beam.modes = 8;
-        const Result fast = solve(p, Method::automatic, 1e-8, 0.35), slow = solve(p, Method::rk8, 1e-11, 0.35);
-        ASSERT_EQ(fast.steps_by_method.size(), 1u) << name(kind);
-        EXPECT_LT(4 * fast.counters.steps, slow.counters.steps) << name(kind);
-        EXPECT_LT(fast.energy_residual_max, 1e-8 * fast.energy_scale) << name(kind);
-        ASSERT_EQ(fast.impacts.size(), slow.impacts.size()) << name(kind);
-        ASSERT_GE(fast.impacts.size(), 2u) << name(kind);
-        for (std::size_t i = 0; i < fast.impacts.size(); ++i) {
-            EXPECT_NEAR(fast.impacts[i].t_start, slow.impacts[i].t_start, 1e-10) << name(kind) << " " << i;
-            EXPECT_NEAR(*fast.impacts[i].t_end, *slow.impacts[i].t_end, 1e-10) << name(kind) << " " << i;
-            EXPECT_NEAR(fast.impacts[i].impulse_n, slow.impacts[i].impulse_n, 1e-8 * slow.impacts[i].impulse_n);
+        p.beam.modes = 2;
+        for (const double ratio : {0.02, 1.5}) {
+            p.beam.damping_ratio = {ratio};
+            const Result r = solve(p, Method::automatic, 1e-6, 0.3);
+            ASSERT_EQ(r.steps_by_method.size(), 1u) << name(kind);
+            EXPECT_EQ(r.steps_by_method[0].first, ratio < 1 ? Method::rk8 : Method::cvode_bdf) << name(kind);
         }
     }
 }
@@ -927,7 +816,7 @@ TEST(ExponentialContact, DoesNotResolveTheRoundingOfTheTime) {
 
 TEST(ExponentialContact, KeepsTheLedger) {
     for (int seed = 1; seed <= seeds(12); ++seed) {
-        const Problem p = seed % 3 == 0 ? random_contact_of_other_models(static_cast<unsigned>(seed))
+        const Problem p = seed % 3 == 0 ? random_contact_of_exact(static_cast<unsigned>(seed))
                                         : random_covered_contact(static_cast<unsigned>(seed));
         for (const double rtol : {1e-4, 1e-6, 1e-9}) {
             const Result r = solve(p, Method::automatic, rtol, 0.5);
@@ -957,7 +846,7 @@ TEST(ExponentialContact, ServesEveryExponent) {
 
 TEST(ExponentialContact, ADriveHoldsWhatTheContactPushes) {
     // The work of a prescribed hub includes that against the cam.
-    for (const ModelKind kind : {ModelKind::first_order, ModelKind::second_order, ModelKind::exact}) {
+    for (const ModelKind kind : {ModelKind::first_order, ModelKind::exact}) {
         Problem p;
         p.beam.model = kind;
         p.hub.drive = ConstantSpeed{-2};

@@ -66,8 +66,7 @@ TEST(Fallback, StepsAreCountedByTheMethodThatTookThem) {
     EXPECT_EQ(r.steps_by_method, (StepsByMethod{{Method::cvode_adams, r.counters.steps}}));
 }
 
-// Shapes of a strongly damped beam that bends far couple so much that the sweeps do not settle. The other method is
-// implicit, and takes only parts of the contact.
+// Runge and Kutta's method would take its steps for stability.
 TEST(Fallback, ADampedBeamThatBendsFarTakesNoStepsForStability) {
     SKIP_UNDER_SANITIZERS();
     Problem p;
@@ -84,8 +83,8 @@ TEST(Fallback, ADampedBeamThatBendsFarTakesNoStepsForStability) {
     p.initial.angle = 0.538;
     const Result r = run(p, 0.7);
     EXPECT_LT(r.counters.rhs_evaluations, 30000);
-    ASSERT_EQ(r.steps_by_method.size(), 2u);
-    EXPECT_EQ(r.steps_by_method[1].first, Method::cvode_bdf);
+    ASSERT_EQ(r.steps_by_method.size(), 1u);
+    EXPECT_EQ(r.steps_by_method[0].first, Method::cvode_bdf);
     p.solver = {Method::cvode_bdf, 1e-9, 1e-12, p.solver.max_steps};
     const Result other = run(p, 0.7);
     ASSERT_EQ(r.impacts.size(), other.impacts.size());

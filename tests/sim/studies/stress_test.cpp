@@ -73,12 +73,6 @@ TEST(Starts, OfBeamsThatCannotRespondToAnImpulseAreRejected) {
     EXPECT_TRUE(validate(p).empty());
 }
 
-// The step that ends with sustained contact cannot be solved again for its shorter length.
-TEST(StressCampaign, AStepThatCannotBeShortenedIsHandedOver) {
-    const stress::StressResult result = run_case(stress::mixture(298));
-    EXPECT_EQ(result.outcome, stress::Outcome::closed) << result.message;
-}
-
 TEST(RepeatedEvents, OfAReboundLostInTheStepsOfAMultistepMethodEnd) {
     for (const Method method : {Method::cvode_adams, Method::cvode_bdf}) {
         Problem p;
