@@ -94,10 +94,13 @@ void add_special(const output::BranchTable& table, double factor, double range, 
             const double x = factor * point.at.parameter;
             const auto last = labelled.find(point.change);
             const bool room = last == labelled.end() || !(std::abs(x - last->second) < kLabelRoom * range);
-            if (room && !point.at.orbit.impacts.empty()) labelled[point.change] = x;
-            for (std::size_t k = 0; k < point.at.orbit.impacts.size(); ++k)
+            if (room) labelled[point.change] = x;
+            std::vector<double> speeds;
+            for (const sim::OrbitImpact& impact : point.at.orbit.impacts) speeds.push_back(impact.approach);
+            if (speeds.empty()) speeds.push_back(0);  // a beam that never leaves the cam
+            for (std::size_t k = 0; k < speeds.size(); ++k)
                 panel.marks.push_back({.x = x,
-                                       .y = point.at.orbit.impacts[k].approach,
+                                       .y = speeds[k],
                                        .label = room && k == 0 ? letters(point.change) : "",
                                        .look = static_cast<int>(point.change),
                                        .hollow = true});

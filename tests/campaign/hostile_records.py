@@ -6,7 +6,7 @@ hostile_records.py PROGRAM [--count N] [--seed N] [--jobs N] [--keep FOLDER]
 The records are those that the program reads back: the list of files, references (PNG, CSV, JSON, digests), points of sweeps, and
 tables (CSV, NPZ). Each case takes a folder that another user made, and changes one record: damaged bytes; forged entries of the list
 of files with names, digests and sizes of other files, or copied marks; links in the place of a record, of a folder, or of an
-output; leftovers of older versions. Then it runs one or two commands. Every run must end within a minute with a documented exit
+output. Then it runs one or two commands. Every run must end within a minute with a documented exit
 code, without a signal; and of all files beside the folder and in it, only those may change, appear or vanish that the
 command announces: its outputs, the list of files, and references of the entries that --update names. Outputs that the user did not
 make may not even change. N is 150 by default; cases that fail are stored in FOLDER.
@@ -114,18 +114,6 @@ class Case:
         file.write_text("".join(json.dumps(line) + "\n" for line in lines), encoding="utf-8")
         return "forged list of files"
 
-    def plant(self):
-        """Records of older versions, and temporary files."""
-        for folder in (self.place, self.place / "refs", self.place / "refs/still"):
-            staging = folder / ".beamcam-update"
-            staging.mkdir()
-            (staging / "tasks").write_text("".join(f"- 0 {self.wanted()}\n" for _ in range(3)))
-            (staging / ".beamcam.0123abcd.journal").write_text(json.dumps({"temporary": self.wanted()}) + "\n")
-            (folder / ".beamcam.0123abcd.journal").write_text(json.dumps({"temporary": self.wanted()}) + "\n")
-            (folder / ".beamcam.json").write_text(json.dumps({"format": "beamcam manifest 1", "files": {self.wanted(): {}}}))
-            (folder / ".beamcam-reference").write_text(f"beamcam reference 1\n{DIGEST} - {self.wanted()}\n")
-        return "records of older versions"
-
     # ---- what is run, and what it announces -----------------------------------------------------------
 
     def choose(self):
@@ -133,7 +121,7 @@ class Case:
         kind = self.dice.choice(["list", "outputs", "references", "references", "update", "update", "points", "tables"])
         if kind in ("list", "outputs"):
             listed = kind == "list"
-            words = self.dice.choice([self.forge, lambda: self.damage(self.place / ".beamcam.jsonl"), self.plant])() if listed else \
+            words = self.dice.choice([self.forge, lambda: self.damage(self.place / ".beamcam.jsonl")])() if listed else \
                 self.link(self.place / self.dice.choice(sorted(OUTPUTS) + [".beamcam.jsonl"]))
             commands = [["run", "own.json", "-o", ".", "-q"], ["run", "own.json", "-q"], ["run", "theirs.json", "-q"],
                         ["simulate", "own.json", "--trajectory", "new.csv", "-q"], ["info", "t.csv", "p.png"],
@@ -144,8 +132,7 @@ class Case:
             folder = self.place / "refs" / entry
             words = self.dice.choice([lambda: self.damage(self.dice.choice(sorted(folder.iterdir()))),
                                       lambda: self.damage(self.dice.choice(sorted(folder.iterdir()))),
-                                      lambda: self.link(self.dice.choice([folder, folder.parent, *sorted(folder.iterdir())])),
-                                      self.plant])()
+                                      lambda: self.link(self.dice.choice([folder, folder.parent, *sorted(folder.iterdir())]))])()
             if kind == "references":
                 return words, [["test", "b.json", "--filter", entry, "-q"], ["test", "b.json", "--json", "-q"]], set()
             return words, [["test", "b.json", "--update", entry, "-q"]], {f"refs/{entry}/"}

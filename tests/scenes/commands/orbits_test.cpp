@@ -86,9 +86,10 @@ TEST(OrbitsCommand, ABranchWithRestSaysHowItsImpactsVaryAndWhatEndsIt) {
     const Folder folder;
     folder.write("s.json", kPressed);
     const Finished done = shell(
-        folder, "$BEAMCAM orbits s.json --set cam.speed=42.2 --over cam.speed=42:60 --step 0.1 --transient '10 s' -q");
+        folder, "$BEAMCAM orbits s.json --set cam.speed=42.2 --over cam.speed=38:60 --step 0.1 --transient '10 s' -q");
     EXPECT_THAT(done.out, ::testing::ContainsRegex("branch of 1 turn, [0-9]+ to [0-9]+ impacts: "));
     EXPECT_THAT(done.out, HasSubstr("ends: release: the rest on the cam vanishes"));
+    EXPECT_THAT(done.out, HasSubstr("ends: release: the flight before the rest on the cam vanishes"));
     // No digit beyond the first uncertain one.
     EXPECT_THAT(done.out,
                 ::testing::ContainsRegex("release          cam.speed = [0-9]+\\.[0-9][0-9][0-9] ± [0-9]e-03 rad/s"));

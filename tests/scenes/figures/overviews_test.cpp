@@ -1,4 +1,4 @@
-// Kymograph, strobe, maps of impacts; and the exports of the same: shapes, states at impacts, TIFF.
+// Kymograph, spectrogram, strobe, maps of impacts; and the tables of shapes and of states at impacts.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -235,7 +235,7 @@ TEST(Diagram, OfBranchesHasTheUnitsOfTheScene) {
 }
 
 // In a cascade only the first labels have room; beside it each other change has its own label.
-TEST(Diagram, OfBranchesLabelsEachKindOfChangeThatHasAMark) {
+TEST(Diagram, OfBranchesLabelsEachKindOfChangeThatHasRoom) {
     using enum sim::OrbitChange;
     output::BranchTable table;
     table.key = "contact.restitution";
@@ -249,14 +249,16 @@ TEST(Diagram, OfBranchesLabelsEachKindOfChangeThatHasAMark) {
         if (impacts) at.orbit.impacts = point.orbit.impacts;
         table.branches[0].special.push_back({change, at, 0});
     };
-    add(release, 0.81, false);  // of a beam that follows the cam, which has no impacts
+    add(release, 0.81, false);  // of a beam that follows the cam: its impacts begin with no speed
     add(period_doubling, 0.82, true);
     add(period_doubling, 0.83, true);
     add(release, 0.819, true);
+    add(release, 0.85, true);
     std::vector<std::string> labels;
     const render::figure::Figure figure = branches_figure(table, {}, Scene(), Lang::en);
     for (const auto& mark : figure.panels[0].marks) labels.push_back(mark.label);
-    EXPECT_THAT(labels, ElementsAre("PD", "", "", "", "R", ""));
+    EXPECT_THAT(labels, ElementsAre("R", "PD", "", "", "", "", "", "R", ""));
+    EXPECT_EQ(figure.panels[0].marks[0].y, 0);
 }
 
 // Angular velocities of samples have the unit of the scene's speeds, angles that of its angles.

@@ -240,22 +240,6 @@ TEST(References, LinksAreNotFollowedOutOfTheFolderOfTheBaselines) {
     }
 }
 
-// A folder that asks for the completion of an update of an older version.
-TEST(References, NothingInAFolderMakesATestWrite) {
-    const Folder folder;
-    fs::create_directories(folder / "p/b/.beamcam-update");
-    fs::create_directories(folder / "victim");
-    folder.write("p/b.json", kBaselines);
-    folder.write("p/s.json", R"({"time": {"end": 0.35}})");
-    folder.write("victim/.profile", "mine");
-    folder.write("p/b/.beamcam-update/tasks", "- 0 ../../victim/.profile\n- 0 ../../victim/.new\n");
-    folder.write("p/b/.beamcam-update/.beamcam.0123abcd.journal", "{\"temporary\": \".x.01234567.part\"}\n");
-    folder.write("p/b/.beamcam-update/baselines.json", "{}");
-    const auto before = contents(folder.path());
-    EXPECT_EQ(shell(folder, "$BEAMCAM test p/b.json -q").code, 7);
-    EXPECT_EQ(contents(folder.path()), before);
-}
-
 TEST(References, DamagedDigestsAreAnErrorAndAnUpdateReplacesThem) {
     const Guarded folder;
     folder.update();
