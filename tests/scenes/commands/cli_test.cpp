@@ -51,7 +51,8 @@ TEST(CommandLine, ExamplesOfTheHelpShowSomething) {
 
 TEST(CommandLine, EveryKeyIsExplained) {
     const Folder folder;
-    EXPECT_TRUE(shell(folder, "$BEAMCAM keys --markdown").out == testing::slurp(BEAMCAM_TEST_DIR "/../scenes/FORMAT.md"))
+    EXPECT_TRUE(shell(folder, "$BEAMCAM keys --markdown").out ==
+                testing::slurp(BEAMCAM_TEST_DIR "/../scenes/FORMAT.md"))
         << "after a change of keys: beamcam keys --markdown > scenes/FORMAT.md";
     const std::string stiffness = shell(folder, "$BEAMCAM keys contact.stiff").out;
     EXPECT_THAT(stiffness, HasSubstr("contact.stiffness\n    number or \"hertz\" [N/m^n], > 0, default 100000000.0\n"));
