@@ -2,6 +2,7 @@
 #include "scenes/commands/cli.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -148,6 +149,22 @@ void add_command(CLI::App& parent, const Command& command, Parsers& parsers) {
     for (const Parameter& parameter : command.parameters) add_parameter(*app, parameter, parsers);
 }
 
+// Names the words that the command does not take; values of unknown options go without saying.
+std::string unexpected_words(const std::vector<std::string>& words, const Command& command) {
+    std::vector<std::string> known, named;
+    for (const Parameter& parameter : command.parameters)
+        if (parameter.is_option())
+            for (std::string& name : split(parameter.names, ',')) known.push_back(std::move(name));
+    for (const std::string& word : words) {
+        if (!word.starts_with('-') || word == "-") continue;
+        const std::string remedy = absent_option(word);
+        named.push_back(fmt::format("unknown option {}{}", word,
+                                    remedy.empty() ? suggestion(word.substr(0, word.find('=')), known) : remedy));
+    }
+    return named.empty() ? fmt::format("unexpected argument {}", fmt::join(words, " "))
+                         : fmt::format("{}", fmt::join(named, "; "));
+}
+
 int parse_and_run(int argc, const char* const* argv) {
     Grammar grammar;
     for (const auto add : kCommands) add(grammar);
@@ -170,12 +187,13 @@ int parse_and_run(int argc, const char* const* argv) {
         output::flush_data();
         return kDone;
     } catch (const CLI::ParseError& error) {
-        std::string name;
-        for (const auto& [parser, command] : parsers.commands)
-            if (parser->parsed()) name += " " + command->name;
-        std::string remedy;
-        for (const std::string& word : app.remaining(true)) remedy += absent_option(word);
-        throw UsageError(fmt::format("{}{} (see beamcam{} --help)", error.what(), remedy, name));
+        std::string name, what = error.what();
+        for (const auto& [parser, command] : parsers.commands) {
+            if (!parser->parsed()) continue;
+            name += " " + command->name;
+            if (dynamic_cast<const CLI::ExtrasError*>(&error)) what = unexpected_words(app.remaining(true), *command);
+        }
+        throw UsageError(fmt::format("{} (see beamcam{} --help)", what, name));
     }
     for (const auto& [parser, command] : parsers.commands)
         if (parser->parsed() && command->action) return command->action();
