@@ -111,7 +111,7 @@ std::string example_of(const DescribedObject& shape) {
     std::vector<std::string> members;
     for (const auto& [tag, word] : shape.tags) members.push_back(fmt::format("\"{}\": \"{}\"", tag, word));
     for (const DescribedKey& key : shape.keys)
-        if (const auto value = example_of(key); value && members.size() < 6)
+        if (const auto value = example_of(key); value && (key.required() || members.size() < 6))
             members.push_back(fmt::format("\"{}\": {}", key.name, *value));
     return fmt::format("{{{}}}", fmt::join(members, ", "));
 }
