@@ -203,6 +203,28 @@ std::string modes_json(const std::vector<sim::Mode>& modes) {
                                  })}}));
 }
 
+std::string peak_json(const sim::PeakBudget& budget, const std::string& unit) {
+    Node rows = array_node();
+    for (const sim::PeakRow& row : budget.rows) {
+        Node each = object_node({{"change", row.change}});
+        if (row.peak) {
+            add(each, "peak", *row.peak);
+            add(each, "t", row.t);
+            add(each, "relative", relative_change(budget, row));
+        } else {
+            add(each, "note", row.note);
+        }
+        rows.items.push_back(std::move(each));
+    }
+    return to_text(object_node({{"of", name(budget.channel)},
+                                {"unit", unit},
+                                {"end_time", budget.end_time},
+                                {"peak", budget.peak},
+                                {"t", budget.t},
+                                {"rows", std::move(rows)},
+                                {"recommendation", budget.recommendation}}));
+}
+
 std::string accuracy_json(const sim::Accuracy& a) {
     Node work = accuracy_rows(a.work, [](const auto& row) {
         return object_node({{"method", sim::name(row.method)}, {"rtol", row.rtol}});

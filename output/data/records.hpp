@@ -14,6 +14,7 @@
 #include "sim/problem/problem.hpp"
 #include "sim/run/simulate.hpp"
 #include "sim/studies/accuracy.hpp"
+#include "sim/studies/peak_budget.hpp"
 
 namespace beamcam::output {
 
@@ -36,5 +37,7 @@ std::string modes_json(const std::vector<sim::Mode>& modes);
 
 // Every row of the assessment, its conditions and the recommendation.
 std::string accuracy_json(const sim::Accuracy& accuracy);
+// The largest value of a channel, its change by each variant, and the recommendation; in the channel's unit.
+std::string peak_json(const sim::PeakBudget& budget, const std::string& unit);
 
 }  // namespace beamcam::output

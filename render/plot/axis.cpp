@@ -32,7 +32,7 @@ struct PrefixedUnit {
 };
 std::optional<PrefixedUnit> prefixed_unit(const std::string& unit) {
     constexpr std::pair<const char*, int> kPrefixes[] = {{"", 0}, {"k", 3}, {"M", 6}, {"m", -3}, {"µ", -6}, {"n", -9}};
-    for (const char* base : {"m", "N", "J", "s", "Hz", "m/s", "m/s²"})
+    for (const char* base : {"m", "N", "J", "s", "Hz", "Pa", "W", "m/s", "m/s²"})
         for (const auto& [prefix, power] : kPrefixes)
             if (unit == std::string(prefix) + base) return PrefixedUnit{power, base};
     return std::nullopt;

@@ -21,7 +21,7 @@ std::string contact_piece(const sim::Problem& problem) {
     if (problem.contact.model == sim::ContactModel::restitution)
         return "impulses, " + equation("c_{\\r{r}}", fmt::format("{:.3g}", problem.contact.restitution));
     const std::string k = equation("K", power_text(sim::contact_stiffness(problem)) +
-                                            fmt::format("\u00A0N\u2009m^{{−{:.3g}}}", problem.contact.exponent));
+                                            fmt::format("\u00A0N\u2009m^{{−{:.3g}}}", contact_exponent(problem)));
     if (problem.contact.damping == sim::DampingLaw::none) return k + ", elastic";
     return k + ", " + equation("c_{\\r{r}}", fmt::format("{:.3g}", problem.contact.restitution));
 }
@@ -35,6 +35,17 @@ std::string damping_piece(const sim::Beam& beam) {
     if (most == 0) return {};
     return equation("ζ", fmt::format("{:.3g}", least) + (most > least ? fmt::format(" … {:.3g}", most) : ""));
 }
+
+struct SectionPiece {
+    std::string operator()(const sim::Rectangle& s) const {
+        return quantity(s.width, "m") + "\u2009×\u2009" + quantity(s.height, "m");
+    }
+    std::string operator()(const sim::Circle& s) const { return "⌀\u2009" + quantity(s.diameter, "m"); }
+    std::string operator()(const sim::Tube& s) const {
+        return "⌀\u2009" + quantity(s.diameter, "m") + "\u2009×\u2009" + quantity(s.wall, "m");
+    }
+    std::string operator()(const sim::CustomSection&) const { return {}; }
+};
 
 struct FrictionPiece {
     std::string operator()(const sim::NoFriction&) const { return "frictionless"; }
@@ -97,6 +108,9 @@ std::string power_text(double value) {
 std::vector<std::string> parameter_pieces(const sim::Problem& problem, SpeedUnit unit) {
     std::vector<std::string> out;
     out.push_back(equation("L", quantity(problem.beam.length, "m")));
+    std::string section = problem.beam.section ? std::visit(SectionPiece{}, *problem.beam.section) : "";
+    if (!section.empty()) out.push_back(std::move(section));
+    if (problem.beam.material) out.emplace_back(sim::name(*problem.beam.material));
     if (problem.cam) {
         out.push_back(equation("R", quantity(problem.cam->radius, "m")));
         out.push_back(equation("e", quantity(problem.cam->eccentricity, "m")));

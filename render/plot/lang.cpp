@@ -12,8 +12,8 @@ namespace {
 constexpr std::string_view kHole = "{}";  // in a phrase: any text without a separator
 constexpr std::string_view kSeparators[] = {" · ", ", "};
 
-// The same number of holes in both, in the same order, or with numbers: {0}, {1}. The first phrase that is the whole text
-// counts.
+// The same number of holes in both, in the same order, or with numbers: {0}, {1}. The first phrase that is the whole
+// text counts.
 struct Phrase {
     std::string_view english, chinese;
 };
@@ -37,6 +37,13 @@ constexpr Phrase kPhrases[] = {
     {"paper", "论文模型"},
     {"rigid beam", "刚性梁"},
     {"rigid", "刚性"},
+    {"steel", "钢"},
+    {"aluminium", "铝"},
+    {"titanium", "钛"},
+    {"brass", "黄铜"},
+    {"pmma", "有机玻璃"},
+    {"pom", "聚甲醛"},
+    {"rubber", "橡胶"},
     {"frictionless", "无摩擦"},
     {"stick–slip", "黏滑"},
     {"impulses", "冲量碰撞"},
@@ -144,6 +151,13 @@ constexpr Phrase kPhrases[] = {
     {"Lost to friction", "摩擦耗散"},
     {"Work of the cam", "凸轮做功"},
     {"Work of the drive", "驱动做功"},
+    {"Bending moment at the root", "根部弯矩"},
+    {"Largest bending stress", "最大弯曲应力"},
+    {"Place of the largest bending stress", "最大弯曲应力位置"},
+    {"Force of the pivot", "铰支力"},
+    {"Direction of the pivot's force", "铰支力方向"},
+    {"Acceleration of the tip", "梁端加速度"},
+    {"Power of the drive", "驱动功率"},
     {"Energy residual", "能量残差"},
     {"Separation", "分离量"},
     {"Separation, printed form", "分离量（印刷式）"},

@@ -3,21 +3,27 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "output/data/records.hpp"
 #include "scenes/commands/result_files.hpp"
 #include "scenes/figures/command_figures.hpp"
+#include "scenes/format/suggest.hpp"
+#include "scenes/format/value_formats.hpp"
 #include "scenes/motions/progress.hpp"
+#include "sim/studies/peak_budget.hpp"
 
 namespace beamcam::scenes {
 namespace {
+
+constexpr double kPeakRuns = 10;  // time limit of each variant of --of, in longest runs: there are few
 
 struct AccuracyArguments {
     Common common;
     std::string scene;
     ResultFiles files;
-    std::optional<std::string> until, target, longest;
+    std::optional<std::string> until, target, longest, of;
     sim::AccuracyRequest request;
 };
 
@@ -80,9 +86,42 @@ sim::AccuracyRequest request_of(const AccuracyArguments& args, const Scene& scen
     return request;
 }
 
+std::string peak_text(const sim::PeakBudget& budget, const std::string& unit) {
+    std::string text = fmt::format("{} to {:.4g} s: largest {:.5g} {} at {:.6g} s\n", name(budget.channel),
+                                   budget.end_time, budget.peak, unit, budget.t);
+    for (const sim::PeakRow& row : budget.rows)
+        text += row.peak ? fmt::format("  {:24} {:>12.5g} {}  {:>+8.2g} %  at {:.6g} s\n", row.change, *row.peak, unit,
+                                       100 * relative_change(budget, row), row.t)
+                         : fmt::format("  {:24} {}\n", row.change, row.note);
+    return text + "\n" + budget.recommendation + "\n";
+}
+
+// How sure the largest value of one channel is.
+int assess_peak(const AccuracyArguments& args, const Scene& scene, const sim::AccuracyRequest& request) {
+    const std::vector<std::string> known = channel_names(all_channels(scene.problem));
+    if (std::ranges::find(known, *args.of) == known.end())
+        throw UsageError(
+            fmt::format("--of {}: it is not a channel of this scene{}", *args.of, suggestion_or_list(*args.of, known)));
+    const sim::Channel channel = *sim::channel_named(*args.of);
+    if (traits(channel.kind).needs_cam && !scene.problem.cam)
+        throw UsageError(fmt::format("--of {}: it has no values without a cam", *args.of));
+    output::FileList file_list(args.common.force);
+    require_writable("-o", args.files.names, {".json"}, file_list);
+    Progress progress(progress_style(args.common));
+    progress.begin("accuracy", 100, "%");
+    const sim::PeakBudget found =
+        sim::peak_budget(scene.problem, channel, request.end_time, kPeakRuns * request.longest_run,
+                         [&](double share) { return progress.reach(100 * share); });
+    progress.end();
+    const std::string unit = sim::unit(channel, scene.problem);
+    return write_result({[&] { return output::peak_json(found, unit); }, [&] { return peak_text(found, unit); }, {}},
+                        args.files, scene, args.common, file_list);
+}
+
 int act(const AccuracyArguments& args) {
     const Scene scene = load_scene(args.scene, args.common);
     const sim::AccuracyRequest request = request_of(args, scene);
+    if (args.of) return assess_peak(args, scene, request);
     output::FileList file_list(args.common.force);
     require_writable("-o", args.files.names, {".json", ".png", ".svg", ".pdf"}, file_list);
     Progress progress(progress_style(args.common));
@@ -100,7 +139,8 @@ int act(const AccuracyArguments& args) {
 void add_accuracy(Grammar& grammar) {
     const auto [app, args] = grammar.command<AccuracyArguments>(
         "accuracy", "Compute the error budget of a scene, and error against run time", act);
-    app.examples = {"accuracy fall.json --until 0.3 --repeats 1 --target 1e-5 -o budget.pdf"};
+    app.examples = {"accuracy fall.json --until 0.3 --repeats 1 --target 1e-5 -o budget.pdf",
+                    "accuracy fall.json --of contact_force"};
     add_scene(app, args.scene, args.common);
     add_result_options(app, args.files, args.common,
                        "Write the result, too: .json, or the diagram as .png, .svg or .pdf (repeatable)");
@@ -109,6 +149,9 @@ void add_accuracy(Grammar& grammar) {
         "--target", &args.target, "ANGLE",
         "Error for which settings are recommended: of theta; of a driven hub, of the tip deflection over the length "
         "(default: 1e-4 rad)");
+    app.option("--of", &args.of, "CHANNEL",
+               "Assess the largest value of this channel instead, such as contact_force or stress_max: its change with "
+               "modes, model, tolerance and contact");
     app.option("--repeats", &args.request.repeats, "N", "Timings of each row (default: 5)").range(1, 1000);
     app.option("--longest", &args.longest, "T", "Leave out runs that take longer than this (default: 2 s)");
 }

@@ -21,7 +21,9 @@ void warn_of_characters(const Common& common, const std::string& path, const Sce
 
 int act(const CheckArguments& args) {
     return for_each_file(args.scenes, [&](const std::string& path) {
-        warn_of_characters(args.common, path, with_default_output(load_scene(path, args.common)));
+        const Scene scene = with_default_output(load_scene(path, args.common));
+        warn_of_characters(args.common, path, scene);
+        for (const std::string& note : scene.notes) inform(args.common, fmt::format("{}: note: {}", path, note));
         inform(args.common, fmt::format("{}: fine", path));
     });
 }
@@ -30,7 +32,8 @@ int act(const CheckArguments& args) {
 
 void add_check(Grammar& grammar) {
     const auto [app, args] = grammar.command<CheckArguments>(
-        "check", "Validate scenes: print all errors and warnings with line, column and remedy", act);
+        "check", "Validate scenes: print all errors and warnings with line, column and remedy, and what is assumed",
+        act);
     app.examples = {"check fall.json"};
     add_scenes(app, args.scenes, args.common);
 }

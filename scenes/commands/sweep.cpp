@@ -194,9 +194,11 @@ void add_sweep(Grammar& grammar) {
         "KEY=FIRST:LAST:STEP, KEY=v,v,... or KEY=@FILE.csv:COLUMN. A third number of digits only, 2 or more, is a "
         "COUNT; "
         "0.02, 2.0 and 1 are a STEP. A unit belongs to each number: 300rpm:600rpm:7. Twice for a grid");
-    app.option("--sample", &args.sample, "WHAT",
-               "When to take samples: impacts, apexes, section:cam_angle=A, section:CHANNEL=VALUE[:falling] (default: "
-               "impacts)");
+    app.option(
+        "--sample", &args.sample, "WHAT",
+        "When to take samples: impacts, apexes, peaks (one of all: largest force, stress, gap …), section:cam_angle=A, "
+        "section:CHANNEL=VALUE[:falling] (default: "
+        "impacts)");
     app.option("--transient", &args.transient, "N",
                "Turns of the cam, or a time, before the first sample (default: 200)");
     app.option("--keep", &args.keep, "N", "Turns of the cam, or a time, in which samples are taken (default: 50)");
@@ -207,9 +209,10 @@ void add_sweep(Grammar& grammar) {
     app.option("--diagram", &args.diagram, "FILE", "Figure of the sweep: .pdf, .svg or .png");
     app.option("--figure", &args.figure, "NAME", "Kind of --diagram (default: depends on the swept keys)")
         .one_of(diagram_names());
-    app.option("--value,--ordinate", &args.value, "WHAT",
-               "Quantity that --diagram shows. bifurcation: a column of the samples (default: v_n_before, "
-               "theta); map, basins: class (default), exponent, impacts_per_period, or the mean of a column");
+    app.option(
+        "--value,--ordinate", &args.value, "WHAT",
+        "Quantity that --diagram shows. bifurcation, peaks: a column of the samples (default: v_n_before, "
+        "theta, force_peak); map, basins: class (default), exponent, impacts_per_period, or the mean of a column");
     add_column(app, args.column);
     add_lang(app, args.lang);
     app.option("--caption", &args.caption, "FILE", "Write the caption of the figure, too: .txt or .md");

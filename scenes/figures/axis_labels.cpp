@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -27,6 +28,12 @@ std::string symbol_of(const std::string& name) {
                                                              {"v_n_before", "$v_{\\r{n}}$ before impact"},
                                                              {"v_n_after", "$v_{\\r{n}}$ after impact"},
                                                              {"contact_x", "$x_{\\r{c}}$"},
+                                                             {"force_peak", "largest $F$"},
+                                                             {"stress_peak", "largest $σ$"},
+                                                             {"gap_peak", "largest $g$"},
+                                                             {"rebound_peak", "fastest rebound"},
+                                                             {"duration_peak", "longest contact"},
+                                                             {"lift_share", "share without contact"},
                                                              {"cam_phase", "cam phase"},
                                                              {"t", "$t$"}};
     if (const auto found = kSymbols.find(name); found != kSymbols.end()) return found->second;
@@ -68,7 +75,8 @@ Measure measure_in(const render::Units& units, const std::string& si_unit) {
 }
 
 Measure measure_of(const std::string& unit, double largest) {
-    const bool prefixed = unit == "m" || unit == "N" || unit == "J" || unit == "s";
+    const auto is_unit = [&](const char* each) { return unit == each; };
+    const bool prefixed = std::ranges::any_of(std::array{"m", "N", "J", "s", "Pa", "W"}, is_unit);
     const render::Prefix prefix = render::prefix_for(prefixed && largest > 0 && std::isfinite(largest) ? largest : 1);
     return {1 / prefix.factor, prefix.symbol + unit};
 }

@@ -139,7 +139,10 @@ figure::Panel samples_panel(const SweptPoints& points, std::size_t column, std::
     return panel;
 }
 
-std::string usual_value(const SweptPoints& points) { return points.of_impacts() ? "v_n_before" : "theta"; }
+std::string usual_value(const SweptPoints& points) {
+    if (points.scene.sweep->sampling.kind == sim::SampleKind::peaks) return "force_peak";
+    return points.of_impacts() ? "v_n_before" : "theta";
+}
 
 }  // namespace
 

@@ -42,6 +42,7 @@ void add_differences(const Node& node, const Node* usual, const std::string& pat
 Node caption_tree(const sim::Problem& problem) {
     Scene scene;
     scene.problem = problem;
+    scene.problem.contact.exponent = contact_exponent(problem);
     return node_of(to_json(scene));
 }
 
@@ -154,8 +155,10 @@ std::string whole_caption(const render::figure::Figure& figure) {
 // The paper does not print g; 9.81 m/s² reproduces its 0.37 s.
 bool is_of_the_paper(const sim::Problem& p) {
     const sim::Beam& b = p.beam;
-    const bool beam = b.length == 1 && as_printed(b.area, 7.2968e-5) && as_printed(b.second_moment, 8.2189e-9) &&
-                      as_printed(b.density, 2766.7) && as_printed(b.youngs_modulus, 6.8952e10);
+    const auto [area, second_moment, c_max] = section_properties(b);
+    const auto [density, youngs_modulus, poisson_ratio] = material_properties(b);
+    const bool beam = b.length == 1 && as_printed(area, 7.2968e-5) && as_printed(second_moment, 8.2189e-9) &&
+                      as_printed(density, 2766.7) && as_printed(youngs_modulus, 6.8952e10);
     const bool start = as_printed(p.initial.angle, M_PI / 4) && p.initial.angular_velocity == 0 &&
                        p.initial.shape == sim::InitialShape::straight && p.initial.q.empty() &&
                        p.initial.q_dot.empty() && as_printed(p.gravity, 9.81) &&

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 #include "render/base/error.hpp"
@@ -105,6 +107,40 @@ figure::Figure sample_plane(const SweptPoints& points, const std::string& x, con
     return {.panels = {std::move(panel)}, .aspect = 0.9};
 }
 
+// A column of peaks over the key, a curve for each start; random starts are points.
+figure::Figure draw_peaks(const SweptPoints& points, const FigureOutput& how) {
+    const std::size_t column = points.column(how.value.empty() ? "force_peak" : how.value);
+    const output::TableColumn& info = points.data.columns[column];
+    const bool random = points.seed(0) == SeedKind::random;
+    std::vector<figure::Series> curves(random ? 1 : points.seeds());
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+        curves[i] = {.look = static_cast<int>(i), .line = !random, .every_point = true};
+        if (curves.size() > 1) curves[i].label = phrase(points.lang, look_of(points.seed(i)).label);
+    }
+    const std::vector<double>& values = points.axis(0).values;
+    std::vector<std::size_t> order(values.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return values[i]; });
+    double largest = 0;
+    for (const std::size_t at : order)
+        for (std::uint64_t seed = 0; seed < points.seeds(); ++seed) {
+            const std::uint64_t k = at * points.seeds() + seed;
+            if (!points.data.has(k)) continue;
+            const output::StoredPoint p = points.data.read(k);
+            const double value = p.samples.empty() ? sim::kNan : p.samples[column];
+            curves[random ? 0 : seed].add(points.value(k), value);
+            if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+        }
+    const Measure measure = measure_of(info.unit, largest);
+    for (figure::Series& curve : curves)
+        for (double& value : curve.y) value *= measure.factor;
+    figure::Panel panel{.x = {.label = label_of(points.axis(0)), .scale = points.scale(0)},
+                        .y = {.label = axis_label(symbol_of(info.name), measure.unit), .with_zero = true},
+                        .series = std::move(curves),
+                        .name = info.name};
+    return {.panels = {std::move(panel)}, .aspect = 0.7};
+}
+
 // ---- the figures by name --------------------------------------------------------------------------
 
 std::optional<std::string> needs_sweep(const Scene& scene) {
@@ -127,6 +163,11 @@ std::optional<std::string> needs_two_starts(const Scene& scene) {
         return std::nullopt;
     return "basins are over two initial values; \"map\" shows other keys";
 }
+std::optional<std::string> needs_peaks(const Scene& scene) {
+    if (auto why = needs_one_key(scene)) return why;
+    if (scene.sweep->sampling.kind == sim::SampleKind::peaks) return std::nullopt;
+    return "its samples are no peaks; set sweep.sample to \"peaks\"";
+}
 std::optional<std::string> needs_impacts(const Scene& scene) {
     if (auto why = needs_sweep(scene)) return why;
     if (scene.sweep->sampling.kind == sim::SampleKind::impacts) return std::nullopt;
@@ -148,6 +189,8 @@ extern const FigureType kBifurcation{.name = "bifurcation",
                                      .refusal = needs_one_key,
                                      .draw = bifurcation,
                                      .keys = {"value"}};
+extern const FigureType kPeaks{
+    .name = "peaks", .title = "Peaks", .refusal = needs_peaks, .draw = draw_peaks, .keys = {"value"}};
 extern const FigureType kBasins{
     .name = "basins", .title = "Basins of attraction", .refusal = needs_two_starts, .draw = key_map, .keys = {"value"}};
 extern const FigureType kMap{
@@ -177,10 +220,10 @@ std::string usual_diagram(const Scene& scene) {
 
 std::vector<std::string> diagram_values(std::string_view diagram, const Scene& scene) {
     std::vector<std::string> known;
-    if (diagram != kBifurcation.name) known.assign(std::begin(kMapValues), std::end(kMapValues));
+    if (diagram != kBifurcation.name && diagram != kPeaks.name)
+        known.assign(std::begin(kMapValues), std::end(kMapValues));
     for (const sim::SampleColumnInfo& column : sim::sample_columns())
-        if (scene.sweep->sampling.kind == sim::SampleKind::impacts || !column.of_impacts)
-            known.emplace_back(column.name);
+        if (column.is_of(scene.sweep->sampling.kind)) known.emplace_back(column.name);
     return known;
 }
 

@@ -44,10 +44,13 @@ constexpr Absent kAbsent[] = {
     {WordKind::not_modelled, "lubrication lubricant oil wear temperature",
      "lubrication, wear and temperature are not modelled"},
 
-    {WordKind::key, "beam.width beam.thickness beam.height beam.diameter beam.section beam.cross_section",
-     "give the cross-section as \"area\" and \"second_moment\": b h and b h^3/12 for a rectangle of width b, π d^2/4 "
-     "and π d^4/64 for a rod"},
-    {WordKind::key, "beam.material cam.material", "give the material as \"density\" and \"youngs_modulus\""},
+    {WordKind::key, "beam.width beam.thickness beam.height beam.diameter beam.cross_section beam.c_max",
+     "write \"section\": {\"type\": \"rectangle\", \"width\": \"25 mm\", \"height\": \"0.8 mm\"}; types are rectangle, "
+     "circle, tube and custom"},
+    {WordKind::key, "section.thickness section.depth section.b section.h",
+     "the height lies in the plane of the motion, the width perpendicular to it; the wall of a tube is \"wall\""},
+    {WordKind::key, "section.inner section.inner_diameter section.radius section.outer",
+     "a circle has a \"diameter\", a tube an outer \"diameter\" and a \"wall\""},
     {WordKind::key, "anchor", "it was withdrawn: texts are in a band below the panels; remove the key"},
     {WordKind::key, "subtitles chapters", "it was withdrawn; \"events\" show texts in the film, ffmpeg adds subtitles"},
     {WordKind::key, "collision", "it was withdrawn; write \"from\": \"collision:3\", \"to\": \"liftoff:3\""},

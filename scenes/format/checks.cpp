@@ -53,7 +53,6 @@ void check_words(ObjectReader& r, const char* key, const std::string& text) {
 
 // ---- pictures ----------------------------------------------------------------------------------
 
-// The value of a key as it is written, or the first one of a sweep over it; null: none.
 const Node* written_value(const Node& scene, const std::string& key) {
     const Member *sweep = scene.find("sweep"), *over = sweep ? sweep->value.find("over") : nullptr;
     for (std::size_t i = 0; over && i < over->value.items.size(); ++i) {

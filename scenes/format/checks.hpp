@@ -17,6 +17,8 @@ List compared_motions(std::vector<Compared>& motions);
 
 ValueFormat layout_format(std::optional<render::LayoutNode>& layout);
 
+// The value of a key as it is written, or the first one of a sweep over it; null: none.
+const Node* written_value(const Node& scene, const std::string& key);
 // Warns about a formula in the text of a picture that cannot be parsed.
 void check_words(ObjectReader& r, const char* key, const std::string& text);
 // Labels and titles of figures contain markup.

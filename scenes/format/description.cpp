@@ -111,7 +111,7 @@ class Describer final : public SceneVisitor {
         DescribedKey& d = add_key(key, "word", meaning);
         d.words = words;
         d.schema = object_node({{"enum", words}});
-        if (!key.derived) d.value = words[chosen];
+        if (!key.derived && chosen < words.size()) d.value = words[chosen];
     }
     void object(const Key& key, const Fields& fields, const char* meaning, bool* present) override {
         Describer inside(meaning);

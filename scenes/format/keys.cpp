@@ -1,6 +1,8 @@
 #include "scenes/format/keys.hpp"
 
 #include "scenes/format/checks.hpp"
+#include "scenes/format/object_reader.hpp"
+#include "sim/problem/assumptions.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -74,7 +76,11 @@ void visit(SceneVisitor& v, Scene& scene) {
                      "that is swept the sweep's first value counts.");
         },
         "Units of angles and speeds in films and figures.", nullptr);
-    v.check([&scene](ObjectReader& r) { check_physics(r, scene.problem); });
+    v.check([&scene](ObjectReader& r) {
+        check_physics(r, scene.problem);
+        if (!r.diagnostics().any())
+            scene.notes = sim::assumptions(scene.problem, written_value(*r.node(), "contact.stiffness") != nullptr);
+    });
     Sweep sweep = scene.sweep.value_or(Sweep{});
     bool swept = scene.sweep.has_value();
     v.object(sim::written_if(swept, "sweep"), SceneVisitor::keys_of(sweep),

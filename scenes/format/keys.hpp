@@ -54,7 +54,7 @@ class SceneVisitor : public sim::Visitor {
     virtual void value(const Key& key, const ValueFormat& format, const char* meaning, const Fields& fields = {}) = 0;
     virtual void list(const Key& key, const List& list, const char* meaning) = 0;
     virtual void named(const Key& key, const NamedItems& items, const char* meaning) = 0;
-    virtual void exclusive(const char* one, const char* other) = 0;
+    void exclusive(const char* one, const char* other) override = 0;
     virtual void problem(sim::Problem& problem) { visit(*this, problem); }
     // A rule between the keys visited so far, or between them and the scene. Only the reader applies it.
     virtual void check(const std::function<void(ObjectReader&)>&) {}

@@ -7,6 +7,7 @@
 
 #include "scenes/format/absent.hpp"
 #include "scenes/format/description.hpp"
+#include "sim/observe/channels.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -125,11 +126,26 @@ class Reference {
             scene_format().meaning +
             "\n\nA quantity may be a text with a unit: `\"12 mm\"`, `\"300 rpm\"`, `\"5 %\"`.\n";
         shape(scene_format(), "", "The scene");
+        channels();
         absent();
         return std::move(out_);
     }
 
   private:
+    void channels() {
+        out_ +=
+            "\n## Channels\n\nFunctions of time, for tables, films and figures; [sim/MODEL.md](../sim/MODEL.md) "
+            "defines "
+            "them.\n\n| channel | unit | meaning |\n|---|---|---|\n";
+        for (const sim::ChannelRow& row : sim::kChannels) {
+            const bool of_mode = row.traits.of_mode;
+            std::string name = row.name;
+            if (of_mode)
+                name = fmt::format("{}`, `{}", std::string(name).insert(1, "1"), std::string(name).insert(1, "2"));
+            out_ += fmt::format("| `{}`{} | {} | {} |\n", name, of_mode ? " …" : "", row.unit,
+                                escaped_for_table(row.meaning));
+        }
+    }
     void absent() {
         out_ +=
             "\n## Not modelled\n\nA key with one of these words is an error that says the same.\n\n"

@@ -78,17 +78,19 @@ std::string set_section(std::string_view channel, sim::Sampling& sampling, const
 ValueFormat sample_format(sim::Sampling& sampling) {
     const auto read = [&sampling](ObjectReader& r, const Node& node, const std::string& key) {
         if (node.kind != Node::Kind::string)
-            return r.expect(node, key, "\"impacts\", \"apexes\" or {{\"section\": CHANNEL, \"at\": VALUE}}");
+            return r.expect(node, key, "\"impacts\", \"apexes\", \"peaks\" or {{\"section\": CHANNEL, \"at\": VALUE}}");
         if (const std::string problem = parse_sample(node.text, r.context().scene.problem, sampling); !problem.empty())
             r.reject_value(node, key, ": {}", problem);
     };
     const auto write = [&sampling] {
-        const bool is_word = sampling.kind == SampleKind::impacts || sampling.kind == SampleKind::apexes;
+        const bool is_word = sampling.kind == SampleKind::impacts || sampling.kind == SampleKind::apexes ||
+                             sampling.kind == SampleKind::peaks;
         return is_word ? Node(text_of_sample(sampling)) : Node();
     };
-    return {"\"impacts\", \"apexes\", \"section:CHANNEL=VALUE\" or object",
-            R"({"anyOf": [{"enum": ["impacts", "apexes", "apex"]}, {"type": "string", "pattern": "^section:.+=.+$"}]})",
-            read, write};
+    return {
+        "\"impacts\", \"apexes\", \"peaks\", \"section:CHANNEL=VALUE\" or object",
+        R"({"anyOf": [{"enum": ["impacts", "apexes", "apex", "peaks"]}, {"type": "string", "pattern": "^section:.+=.+$"}]})",
+        read, write};
 }
 
 void visit_section(SceneVisitor& v, sim::Sampling& sampling) {
@@ -154,9 +156,12 @@ void visit(SceneVisitor& v, Sweep& sweep) {
     over.min_size = 1, over.max_size = 2, over.of = "keys";
     over.example = "[{\"key\": \"cam.speed\", \"from\": 40, \"to\": 52, \"count\": 601}]";
     v.list(sim::required("over", over.example), over, "The keys that vary: one, or two as a grid.");
-    v.value("sample", sample_format(sweep.sampling),
-            "The samples of each motion: its state at impacts, at apexes, or where a channel passes a value.",
-            SceneVisitor::keys_of(sweep.sampling, visit_section));
+    v.value(
+        "sample", sample_format(sweep.sampling),
+        "The samples of each motion: its state at impacts, at apexes, or where a channel passes a value; or one, "
+        "\"peaks\": the largest force, stress, gap and rebound, number and longest duration of impacts, and the share "
+        "of the time without contact.",
+        SceneVisitor::keys_of(sweep.sampling, visit_section));
     v.object("transient", sweep.sampling.transient, "Time before the first sample.");
     v.object("keep", sweep.sampling.keep, "Time during which samples are taken.");
     v.value("seed", seed_format(sweep.seeds),
@@ -175,10 +180,14 @@ std::string parse_sample(std::string_view text, const sim::Problem& problem, sim
         sampling.kind = text == "impacts" ? SampleKind::impacts : SampleKind::apexes;
         return "";
     }
+    if (text == "peaks") {
+        sampling.kind = SampleKind::peaks;
+        return "";
+    }
     constexpr std::string_view kSection = "section:";
     const std::size_t equals = text.find('=');
     if (!text.starts_with(kSection) || equals == std::string_view::npos)
-        return "write impacts, apexes, or section:CHANNEL=VALUE, for example section:cam_angle=0";
+        return "write impacts, apexes, peaks, or section:CHANNEL=VALUE, for example section:cam_angle=0";
     std::string_view value = text.substr(equals + 1);
     if (const std::size_t colon = value.find(':'); colon != std::string_view::npos) {
         const std::string_view direction = value.substr(colon + 1);
@@ -278,7 +287,8 @@ std::vector<SweepProblem> problems_of(const Sweep& sweep, const sim::Problem& pr
         all.push_back({"seed.key", "random keys need random starts; add \"random\""});
     const sim::CamSpan& keep = sweep.sampling.keep;
     if (!(keep.time.value_or(keep.turns) > 0)) all.push_back({"keep", "must be greater than 0"});
-    if (!problem.cam && (sweep.sampling.kind == SampleKind::impacts || sweep.sampling.kind == SampleKind::section))
+    if (!problem.cam && (sweep.sampling.kind == SampleKind::impacts || sweep.sampling.kind == SampleKind::section ||
+                         sweep.sampling.kind == SampleKind::peaks))
         all.push_back({"sample", "there is no cam; use \"apexes\", or add a \"cam\""});
     return all;
 }

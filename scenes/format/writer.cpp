@@ -29,7 +29,7 @@ class Writer final : public SceneVisitor {
     void boolean(const Key& key, bool& value, const char*) override { put(key, value); }
     void text(const Key& key, std::string& value, const char*) override { put(key, value); }
     void keyword(const Key& key, const std::vector<std::string>& words, std::size_t& chosen, const char*) override {
-        put(key, words[chosen]);
+        if (key.written) put(key, words[chosen]);
     }
     void object(const Key& key, const Fields& fields, const char*, bool* present) override {
         if (present && !*present) return put(key, Node{});

@@ -31,6 +31,7 @@ struct Scene {
     std::optional<Sweep> sweep;
     std::vector<Measurement> data;
     std::vector<Output> outputs;
+    std::vector<std::string> notes;  // what is assumed where the scene says nothing; `beamcam check` prints them
     // Position of each output in the file, for messages: "fall.json:12:5". Outputs of commands have none.
     std::vector<std::string> output_places;
 

@@ -27,6 +27,8 @@ std::string text_of_sample(const sim::Sampling& sampling) {
             return "impacts";
         case SampleKind::apexes:
             return "apexes";
+        case SampleKind::peaks:
+            return "peaks";
         case SampleKind::section:
             return fmt::format("section:cam_angle={}", sampling.level);
         case SampleKind::crossings:

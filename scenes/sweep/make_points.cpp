@@ -16,11 +16,11 @@
 namespace beamcam::scenes {
 namespace {
 
-// Samples other than impacts have no impact columns.
+// Some columns belong to one kind of samples.
 std::vector<std::size_t> kept_columns(const sim::Sampling& sampling) {
     std::vector<std::size_t> kept;
     for (std::size_t c = 0; c < sim::kSampleColumns; ++c)
-        if (sampling.kind == sim::SampleKind::impacts || !sim::sample_columns()[c].of_impacts) kept.push_back(c);
+        if (sim::sample_columns()[c].is_of(sampling.kind)) kept.push_back(c);
     return kept;
 }
 

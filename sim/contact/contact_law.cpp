@@ -39,7 +39,7 @@ FrictionLaw FrictionLaw::of(const Problem& problem, const NormalLaw& normal, dou
         if (!law.bristle) return law;
         // Mindlin's ratio of tangential to normal stiffness, 2(1−ν)/(2−ν), times the normal stiffness n K δⁿ⁻¹ at the
         // penetration that the beam's mass reaches at 1 m/s (S37).
-        const double n = normal.exponent, nu = problem.beam.poisson_ratio;
+        const double n = normal.exponent, nu = material_properties(problem.beam).poisson_ratio;
         const double depth = impact_depth(n, normal.stiffness, mass, 1);
         law.stiffness =
             stick_slip->stiffness.value_or(2 * (1 - nu) / (2 - nu) * n * normal.stiffness * std::pow(depth, n - 1));

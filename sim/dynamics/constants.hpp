@@ -41,6 +41,7 @@ inline constexpr double kLeastFiniteRestitution = 0.01;  // for dissipation laws
 inline constexpr double kStartGap =
     1e-12;  // of the length, at least of 1 m: smaller overlaps at the start are rounding
 inline constexpr double kContinuedGap = 1e-9;   // of the same: beam and cam that are said to touch are no farther apart
+inline constexpr double kSameExponent = 1e-3;   // of a contact exponent that is written with a few digits
 inline constexpr double kFarRestitution = 0.2;  // of the pre-set restitution from that of impacts: worth a warning
 
 // ---- the causes of a failure ----

@@ -100,13 +100,19 @@ bool is_stable(Model& model, const Eigen::VectorXd& xi, const Eigen::VectorXd& s
 template <class Solve>
 bool soften(const System& given, Solve&& solve) {
     Problem problem = given.problem();
-    const double length = problem.beam.length, stiffness = problem.beam.youngs_modulus;
+    Beam& beam = problem.beam;
+    const MaterialProperties material = material_properties(beam);
+    beam.material.reset();
+    beam.density = material.density;
+    beam.poisson_ratio = material.poisson_ratio;
+    const double length = beam.length, stiffness = material.youngs_modulus;
+    beam.youngs_modulus = stiffness;
     const double load = problem.beam.model == ModelKind::rigid
                             ? 0
                             : force_size(given) * length * length / problem.beam.bending_stiffness();
     const auto steps = static_cast<int>(std::clamp(std::ceil(load / kLoadStep), 1.0, kMostLoadSteps));
     for (int step = 1; step < steps; ++step) {
-        problem.beam.youngs_modulus = stiffness * steps / step;
+        beam.youngs_modulus = stiffness * steps / step;
         System stiffer(problem);
         if (!solve(stiffer)) return false;
     }
@@ -150,7 +156,7 @@ bool equilibrium_on_cam(System& system, double t, FollowingState& s) {
     };
     bool found = newton(residual, x, scale, size);
     if (!found && !rigid_contact) {  // the differences may have exceeded the penetration in a stiff contact
-        const double depth = std::pow(force_size(system) / stiffness, 1 / problem.contact.exponent);
+        const double depth = std::pow(force_size(system) / stiffness, 1 / contact_exponent(problem));
         x = s.xi;
         found = newton(residual, x, scale, size,
                        std::min(kNewtonDifference, kShallowDifference * depth / problem.beam.length));
@@ -235,7 +241,7 @@ Eigen::VectorXd rod_on_cam(const System& system) {
         problem.contact.model == ContactModel::restitution
             ? 0
             : std::pow(std::max(-side * moment(touching), 0.0) / (distance * system.normal_law().stiffness),
-                       1 / problem.contact.exponent);
+                       1 / contact_exponent(problem));
     Eigen::VectorXd xi = Eigen::VectorXd::Zero(system.coordinates());
     xi[0] = touching - side * penetration / distance;
     return xi;

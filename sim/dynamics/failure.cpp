@@ -105,7 +105,7 @@ std::string inertia_message(const Problem& p) {
 }
 
 std::string passed_cam_message(const Problem& p, const BeamState& beam) {
-    const double n = p.contact.exponent, k = contact_stiffness(p), radius = p.cam->radius;
+    const double n = contact_exponent(p), k = contact_stiffness(p), radius = p.cam->radius;
     const double depth = impact_depth(n, k, beam.mass, beam.approach);
     const std::string law = fmt::format("{:g} N/m^{:g}", k, n);
     if (depth < 0.5 * radius) {
@@ -157,7 +157,7 @@ std::string step_size_limits(const Problem& p, System& system, const BeamState& 
                                     p.beam.modes, modes_noun(p), fastest, 1 / fastest));
     if (p.cam && p.contact.model == ContactModel::compliant && beam.mass > 0) {
         // The depth at 1 m/s is also the time to it in seconds.
-        const double n = p.contact.exponent, k = contact_stiffness(p);
+        const double n = contact_exponent(p), k = contact_stiffness(p);
         const std::string with = fastest > 0 ? fmt::format(" with {} {}", p.beam.modes, modes_noun(p)) : "";
         needs.push_back(fmt::format(
             "contact stiffness {:g} N/m^{:g}{} needs steps near {:.1g} s in a touch (softer, or \"contact\": "

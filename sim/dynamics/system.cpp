@@ -13,7 +13,7 @@ namespace beamcam::sim {
 namespace {
 
 NormalLaw normal_law_of(const Problem& problem) {
-    return {contact_stiffness(problem), problem.contact.exponent,
+    return {contact_stiffness(problem), contact_exponent(problem),
             damping_factor(problem.contact.damping, problem.contact.restitution)};
 }
 
@@ -260,17 +260,19 @@ System::EnergyBalance System::balance_without_beam(const double* y, const Contac
     return b;
 }
 
-void System::acceleration(double t, const double* y, double* acc) {
+double System::acceleration(double t, const double* y, double* acc) {
     double dy[2 * kMaxSize + 1 + kLedgerSize];
     rhs(t, y, dy);
     std::copy_n(dy + n_, n_, acc);
+    return dy[controlled + kWorkDrive];
 }
 
-void System::current_acceleration(double t, const ContactState& c, double* acc) {
+double System::current_acceleration(double t, const ContactState& c, double* acc) {
     require_inertia(acc);
     add_torque(t, acc);
     if (phase_.touching) add_contact_force(c, acc);
-    accelerate(t, acc);
+    const double of_torque = drive_.has_torque() ? drive_.torque(t) * model_->hub_rate() : 0;
+    return of_torque + accelerate(t, acc);
 }
 
 }  // namespace beamcam::sim

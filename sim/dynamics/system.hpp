@@ -93,10 +93,10 @@ class System final : public Ode {
     // All but the energies of the beam. Of the contact, if it stores energy, only the gap counts and, with a bristle,
     // the force.
     EnergyBalance balance_without_beam(const double* y, const ContactState& c) const;
-    // ξ̈ at (t, y) in the present phase; array of `coordinates`.
-    void acceleration(double t, const double* y, double* acc);
-    // The acceleration in the state of `set_state`, in flight or with the contact forces of `c`.
-    void current_acceleration(double t, const ContactState& c, double* acc);
+    // ξ̈ at (t, y) in the present phase; array of `coordinates`. Returns the power of the drive [W].
+    double acceleration(double t, const double* y, double* acc);
+    // The same in the state of `set_state`, in flight or with the contact forces of `c`.
+    double current_acceleration(double t, const ContactState& c, double* acc);
 
     // Computed when first needed, and shared by copies.
     const NaturalModes& natural_modes() const;

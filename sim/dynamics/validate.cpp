@@ -72,8 +72,22 @@ void check_hub(Issues& out, const Problem& p) {
     if (const auto* d = std::get_if<AngleTable>(&p.hub.drive)) check_angle_table(out, *d);
 }
 
+void check_section(Issues& out, const Section& section) {
+    if (const auto* s = std::get_if<Tube>(&section); s && s->wall > 0 && !(s->wall <= 0.5 * s->diameter))
+        out.error("beam.section.wall",
+                  fmt::format("must be at most half the diameter of {:g} m, is {:g} m; a solid rod "
+                              "is \"type\": \"circle\"",
+                              s->diameter, s->wall));
+    const auto* s = std::get_if<CustomSection>(&section);
+    if (s && s->area > 0 && s->c_max > 0 && !(s->second_moment <= s->area * s->c_max * s->c_max))
+        out.error("beam.section.second_moment",
+                  fmt::format("must be at most area · c_max² = {:g} m^4, that of two thin flanges, is {:g} m^4",
+                              s->area * s->c_max * s->c_max, s->second_moment));
+}
+
 void check_beam(Issues& out, const Problem& p) {
     const Beam& b = p.beam;
+    if (b.section) check_section(out, *b.section);
     if (b.damping_ratio.size() > 1 && static_cast<int>(b.damping_ratio.size()) != b.modes)
         out.error("beam.damping_ratio", fmt::format("needs one number, or one for each of the {} modes; has {}",
                                                     b.modes, b.damping_ratio.size()));
@@ -90,6 +104,12 @@ void check_beam(Issues& out, const Problem& p) {
 
 void check_contact(Issues& out, const Problem& p) {
     const Contact& c = p.contact;
+    if (const double n = is_line_contact(p) ? kLineExponent : kPointExponent;
+        c.model == ContactModel::compliant && !c.stiffness && c.exponent && std::fabs(*c.exponent - n) > kSameExponent)
+        out.error("contact.exponent",
+                  fmt::format("\"stiffness\": \"hertz\" has the exponent {:.4g}, not {:g}; remove it, or give the "
+                              "stiffness as a number",
+                              n, *c.exponent));
     const auto finite = [](DampingLaw law) { return std::isfinite(damping_factor(law, 0)); };
     if (c.model == ContactModel::compliant && !finite(c.damping) && c.restitution < kLeastFiniteRestitution) {
         std::vector<const char*> others;
@@ -269,26 +289,24 @@ double final_speed(const Drive& drive) {
 
 void check_beam_scales(Issues& out, const Problem& p) {
     const Beam& b = p.beam;
-    const double mass = b.density * b.area * b.length;
-    check_product(out, kSmallestInertia, kLargestInertia, "the beam's mass", mass, "kg",
-                  {{"beam.length", b.length}, {"beam.area", b.area}, {"beam.density", b.density}});
+    const SectionProperties section = section_properties(b);
+    const MaterialProperties material = material_properties(b);
+    const Factor length{"beam.length", b.length}, area{b.section ? "beam.section" : "beam.area", section.area},
+        second_moment{b.section ? "beam.section" : "beam.second_moment", section.second_moment},
+        density{"beam.density", material.density};
+    const double mass = b.line_density() * b.length;
+    check_product(out, kSmallestInertia, kLargestInertia, "the beam's mass", mass, "kg", {length, area, density});
     check_product(out, kSmallestInertia, kLargestInertia, "the beam's moment of inertia",
-                  mass * b.length * b.length / 3, "kg m^2",
-                  {{"beam.length", b.length}, {"beam.area", b.area}, {"beam.density", b.density}});
+                  mass * b.length * b.length / 3, "kg m^2", {length, area, density});
     if (b.model == ModelKind::rigid) return;
     check_product(out, kSmallestScale, kLargestScale, "the beam's first bending frequency", first_clamped_frequency(b),
-                  "rad/s",
-                  {{"beam.youngs_modulus", b.youngs_modulus},
-                   {"beam.length", b.length},
-                   {"beam.second_moment", b.second_moment},
-                   {"beam.area", b.area},
-                   {"beam.density", b.density}});
+                  "rad/s", {{"beam.youngs_modulus", material.youngs_modulus}, length, second_moment, area, density});
 }
 
 void check_contact_scales(Issues& out, const Problem& p) {
     if (!p.cam || p.contact.model != ContactModel::compliant) return;
-    const double n = p.contact.exponent, k = contact_stiffness(p);
-    const double mass = p.beam.density * p.beam.area * p.beam.length;
+    const double n = contact_exponent(p), k = contact_stiffness(p);
+    const double mass = p.beam.line_density() * p.beam.length;
     const double depth = impact_depth(n, k, mass, 1);
     const char* path = p.contact.stiffness || !p.cam->youngs_modulus ? "contact.stiffness" : "cam.youngs_modulus";
     check_product(out, kSmallestScale, kLargestScale, "the depth of a touch at 1 m/s", depth, "m",

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "sim/beam/natural_modes.hpp"
+
 namespace beamcam::sim {
 
 ChannelEvaluator::ChannelEvaluator(const System& system)
@@ -14,6 +16,7 @@ void ChannelEvaluator::set(double t, const double* y) {
     t_ = t;
     std::copy_n(y, y_.size(), y_.begin());
     placed_ = balance_known_ = energies_known_ = contact_known_ = forces_known_ = acceleration_known_ = false;
+    loads_known_ = largest_known_ = false;
 }
 
 Model& ChannelEvaluator::model() {
@@ -55,6 +58,7 @@ const Energies& ChannelEvaluator::energies() {
 
 void ChannelEvaluator::set_contact(const ContactState& contact) {
     contact_ = contact;
+    contact_.tangent = -perp(contact.normal);
     contact_known_ = true;
     forces_known_ = !system_.phase().touching || system_.friction().none();
 }
@@ -135,6 +139,18 @@ double ChannelEvaluator::value(Channel channel) {
             return ledger(kWorkDrive);
         case ChannelKind::energy_residual:
             return energy_balance().total() - start_total_;
+        case ChannelKind::root_moment:
+            return loads().moment(0);
+        case ChannelKind::stress_max:
+        case ChannelKind::stress_x:
+            return stress(channel.kind);
+        case ChannelKind::pivot_force:
+        case ChannelKind::pivot_angle:
+            return pivot(channel.kind);
+        case ChannelKind::tip_acceleration:
+            return norm(point_acceleration(model(), acceleration(), model().length()));
+        case ChannelKind::drive_power:
+            return drive_power();
         case ChannelKind::separation:
         case ChannelKind::separation_paper:
             return separation(channel.kind);
@@ -164,7 +180,7 @@ double ChannelEvaluator::place_on_rim() {
 double ChannelEvaluator::separation(ChannelKind kind) {
     const Model& beam = model();
     const ContactState c = contact();
-    const double acceleration = hub_acceleration(c);
+    const double acceleration = hub_acceleration();
     BeamPoint p, root;
     beam.point(c.x, p);
     beam.point(0, root);
@@ -174,22 +190,88 @@ double ChannelEvaluator::separation(ChannelKind kind) {
     return acceleration * arm + (kind == ChannelKind::separation ? pull : -pull);
 }
 
-double ChannelEvaluator::hub_acceleration(const ContactState& c) {
-    if (acceleration_known_) return hub_acceleration_;
-    const Model& beam = model();
-    double acc[kMaxSize];
-    if (forces_known_ || !system_.phase().touching) {
-        system_.current_acceleration(t_, c, acc);
+// In contact with the forces of `contact`, where they are known.
+const double* ChannelEvaluator::acceleration() {
+    if (acceleration_known_) return acceleration_;
+    const bool touching = system_.phase().touching;
+    model();
+    if (forces_known_ || !touching) {
+        drive_power_ = system_.current_acceleration(t_, touching ? contact() : ContactState{}, acceleration_);
     } else {
-        system_.begin_contact_at(c.x);
-        system_.acceleration(t_, y_.data(), acc);
+        system_.begin_contact_at(contact().x);
+        drive_power_ = system_.acceleration(t_, y_.data(), acceleration_);
         system_.set_state(t_, y_.data());
     }
-    double total = 0;
-    for (int i = 0; i < system_.coordinates(); ++i) total += beam.hub_row()[i] * acc[i];
-    hub_acceleration_ = total;
     acceleration_known_ = true;
-    return hub_acceleration_;
+    return acceleration_;
+}
+
+double ChannelEvaluator::hub_acceleration() {
+    const double *row = model().hub_row(), *acc = acceleration();
+    double total = 0;
+    for (int i = 0; i < system_.coordinates(); ++i) total += row[i] * acc[i];
+    return total;
+}
+
+const BeamLoads& ChannelEvaluator::loads() {
+    if (!loads_) loads_.emplace(system_.problem());
+    if (!loads_known_) {
+        const double* acc = acceleration();
+        loads_->set(model(), acc, system_.phase().touching ? &contact() : nullptr);
+        loads_known_ = true;
+    }
+    return *loads_;
+}
+
+// The part of the contact force that the bent beam resists: the static load that fits the elastic forces of its natural
+// modes best, F − m Σ J_i z̈_i/Σ J_i², between 0 and F                                                  (S98)
+double ChannelEvaluator::resisted_force() {
+    const Model& beam = model();
+    const Eigen::Index n = system_.coordinates();
+    if (n == 1) return contact().force;
+    const Eigen::Map<const Eigen::VectorXd> acc(acceleration(), n);
+    const ContactState& c = contact();
+    Eigen::VectorXd jx(n), jy(n), jchi(n);
+    beam.jacobian(c.x, jx.data(), jy.data(), jchi.data());
+    const NaturalModes& modes = system_.natural_modes();
+    const Eigen::VectorXd row = modes.shapes.transpose() * (c.normal.x * jx + c.normal.y * jy), z = modes.inverse * acc;
+    const double moved = row.tail(n - 1).dot(z.tail(n - 1)), size = row.tail(n - 1).squaredNorm();
+    return std::clamp(c.force - (size > 0 ? beam.mass() * moved / size : 0), 0.0, std::max(0.0, c.force));
+}
+
+// The loads with that part of the contact force, and with the acceleration that it would cause.
+const BeamLoads& ChannelEvaluator::resisted_loads() {
+    const BeamLoads& all = loads();
+    if (!system_.phase().touching) return all;
+    ContactState c = contact();
+    const double resisted = resisted_force();
+    if (!(resisted < c.force)) return all;
+    c.friction *= resisted / c.force;
+    c.force = resisted;
+    double acc[kMaxSize];
+    system_.current_acceleration(t_, c, acc);
+    if (!resisted_loads_) resisted_loads_.emplace(system_.problem());
+    resisted_loads_->set(model(), acc, &c);
+    return *resisted_loads_;
+}
+
+// σ = |M| c_max/I                                                                                     (S98)
+double ChannelEvaluator::stress(ChannelKind kind) {
+    if (!largest_known_) largest_moment_ = resisted_loads().largest_moment();
+    largest_known_ = true;
+    if (kind == ChannelKind::stress_x) return largest_moment_.x;
+    const SectionProperties section = section_properties(system_.problem().beam);
+    return largest_moment_.y * section.c_max / section.second_moment;
+}
+
+double ChannelEvaluator::pivot(ChannelKind kind) {
+    const Vec2 force = loads().pivot_force();
+    return kind == ChannelKind::pivot_force ? norm(force) : std::atan2(force.y, force.x);
+}
+
+double ChannelEvaluator::drive_power() {
+    acceleration();
+    return drive_power_;
 }
 
 Pose ChannelEvaluator::pose(int stations) {

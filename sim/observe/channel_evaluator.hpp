@@ -1,9 +1,11 @@
 // Channels and poses of a motion at one instant.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "sim/dynamics/system.hpp"
+#include "sim/observe/beam_loads.hpp"
 #include "sim/observe/channels.hpp"
 #include "sim/observe/pose.hpp"
 
@@ -34,14 +36,20 @@ class ChannelEvaluator {
     const ContactState& contact();
 
   private:
-    // θ̈ with the forces of this contact, which only touching has.
-    double hub_acceleration(const ContactState& c);
+    const double* acceleration();  // ξ̈
+    const BeamLoads& loads();
+    double hub_acceleration();                     // θ̈
     System::EnergyBalance balance_without_beam();  // perhaps with the beam's energies
     double ledger(Ledger entry) const { return y_[static_cast<std::size_t>(system_.controlled + entry)]; }
     double rate_of_mode(int index) const;
     double tip(ChannelKind kind);
     double place_on_rim();
     double separation(ChannelKind kind);
+    double resisted_force();
+    const BeamLoads& resisted_loads();
+    double stress(ChannelKind kind);
+    double pivot(ChannelKind kind);
+    double drive_power();
 
     System system_;
     double t_ = 0, start_total_ = 0;
@@ -52,7 +60,10 @@ class ChannelEvaluator {
     System::EnergyBalance balance_;
     Energies energies_;
     ContactState contact_;
-    double hub_acceleration_ = 0;
+    double acceleration_[kMaxSize] = {}, drive_power_ = 0;
+    std::optional<BeamLoads> loads_, resisted_loads_;
+    bool loads_known_ = false, largest_known_ = false;
+    Vec2 largest_moment_;  // its place, and its magnitude
 };
 
 }  // namespace beamcam::sim

@@ -21,15 +21,24 @@ namespace {
 std::vector<double> rounding_of(const std::vector<Channel>& channels, const Problem& problem) {
     const Beam& beam = problem.beam;
     const double g = problem.gravity == 0 ? kEarthGravity : std::fabs(problem.gravity);
+    const SectionProperties section = section_properties(beam);
     const double length = beam.length, mass = beam.line_density() * length, rate = std::sqrt(g / length);
     const std::pair<std::string_view, double> sizes[] = {
-        {"m", length},   {"m/s", length * rate},  {"m/s^2", g}, {"rad", 1}, {"rad/s", rate},
-        {"N", mass * g}, {"J", mass * g * length}};
+        {"m", length},
+        {"m/s", length * rate},
+        {"m/s^2", g},
+        {"rad", 1},
+        {"rad/s", rate},
+        {"N", mass * g},
+        {"J", mass * g * length},
+        {"N m", mass * g * length},
+        {"W", mass * g * length * rate},
+        {"Pa", mass * g * length * section.c_max / section.second_moment}};
     const bool all = channels.size() == all_channels(problem).size();
     std::vector<double> out;
     for (const Channel& channel : channels) {
         const bool followed = channel.kind != ChannelKind::energy_residual &&
-                              !(all && (traits(channel.kind).of_mode || traits(channel.kind).separation));
+                              !(all && (traits(channel.kind).of_mode || traits(channel.kind).accelerated));
         double size = followed ? 1 : std::numeric_limits<double>::infinity();
         for (const auto& [of, natural] : sizes)
             if (of == unit(channel, problem)) size *= natural;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
 #include "sim/beam/modal_model.hpp"
 #include "sim/beam/natural_modes.hpp"
@@ -28,7 +27,7 @@ struct StepSamples::Needs {
     bool state = false;    // more than the coordinates
     bool work = false;     // what damping and drive do to the vibration
     bool contact = false;  // its geometry and, in contact, forces
-    bool energy = false;   // which vibrates twice as fast as the beam
+    bool squared = false;  // it vibrates twice as fast as the beam
 };
 
 StepSamples::StepSamples(const System& system)
@@ -172,7 +171,7 @@ void StepSamples::sample_part(const Instants& part, const NeedsMore& needs_more,
         if (sampled_.empty()) continue;
         if (frequency < 0) frequency = fastest(part);
         const Needs needs = needs_of(sampled_);
-        const double length = part[k + 1] - part[k], rate = needs.energy ? 2 * frequency : frequency;
+        const double length = part[k + 1] - part[k], rate = needs.squared ? 2 * frequency : frequency;
         const double pieces = std::min(std::ceil(kSamplesPerRadian * rate * length), kMostSamples);
         for (double j = 1; j < pieces; ++j) {
             const double t = part[k] + length * (j / pieces);
@@ -243,7 +242,7 @@ StepSamples::Needs StepSamples::needs_of(std::span<const std::size_t> channels) 
         const ChannelTraits& of = traits(channels_[c].kind);
         out.state = out.state || !evaluator_.is_of_coordinates(channels_[c]);
         out.work = out.work || of.needs_vibration_work;
-        out.energy = out.energy || std::string_view(row(channels_[c].kind).unit) == "J";
+        out.squared = out.squared || of.squared;
         out.contact = out.contact || (system.has_cam() && (of.needs_contact || (touching && of.needs_force)));
     }
     return out;

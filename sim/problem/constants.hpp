@@ -8,6 +8,11 @@ inline constexpr double kPaperDepth = 0.0368;  // [m] depth of the beam with the
 inline constexpr double kCollisionGap = 0.02;  // [s] "auto" for a beam of 1 m on Earth
 inline constexpr double kEarthGravity = 9.81;  // [m/s²] in place of a gravity of zero
 
+// ---- Hertz's contact ----
+inline constexpr double kPointExponent = 1.5;      // of spheres
+inline constexpr double kLineExponent = 10.0 / 9;  // of Palmgren's δ ~ F^0.9 (1959)
+inline constexpr double kPalmgrenFactor = 1.36;    // δ = 1.36 [(η₁ + η₂)F]^0.9/b^0.8, η = (1 − ν²)/E
+
 // ---- the range of the numbers ----
 // Squares, cubes and products of a few numbers between these neither overflow nor vanish.
 inline constexpr double kSmallestInertia = 1e-60, kLargestInertia = 1e60;  // mass [kg], moment of inertia [kg m²]

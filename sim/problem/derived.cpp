@@ -24,14 +24,30 @@ Basis resolved_basis(const Problem& problem) {
     return Basis::hub_beam;
 }
 
+bool is_line_contact(const Problem& problem) {
+    return problem.beam.section && std::holds_alternative<Rectangle>(*problem.beam.section);
+}
+
+double contact_exponent(const Problem& problem) {
+    const bool line = !problem.contact.stiffness && is_line_contact(problem);
+    return problem.contact.exponent.value_or(line ? kLineExponent : kPointExponent);
+}
+
 double contact_stiffness(const Problem& problem) {
     if (problem.contact.stiffness || !problem.cam) return problem.contact.stiffness.value_or(0);
-    const Beam& beam = problem.beam;
     const Cam& cam = *problem.cam;
-    const double cam_modulus = cam.youngs_modulus.value_or(beam.youngs_modulus);
-    const double compliance = (1 - beam.poisson_ratio * beam.poisson_ratio) / beam.youngs_modulus +
-                              (1 - cam.poisson_ratio * cam.poisson_ratio) / cam_modulus;
-    return 4.0 / 3.0 / compliance * std::sqrt(cam.radius);  // (S29)
+    const MaterialProperties beam = material_properties(problem.beam);
+    const MaterialProperties disc =
+        cam.material ? material_properties(*cam.material)
+                     : MaterialProperties{0, cam.youngs_modulus.value_or(beam.youngs_modulus), cam.poisson_ratio};
+    const auto compliance = [](const MaterialProperties& of) {
+        return (1 - of.poisson_ratio * of.poisson_ratio) / of.youngs_modulus;
+    };
+    const double modulus = 1 / (compliance(beam) + compliance(disc));
+    if (is_line_contact(problem))
+        return modulus * std::pow(std::get<Rectangle>(*problem.beam.section).width, 2 - kLineExponent) /
+               std::pow(kPalmgrenFactor, kLineExponent);  // (S29a)
+    return 4.0 / 3.0 * modulus * std::sqrt(cam.radius);   // (S29)
 }
 
 double collision_gap(const Problem& problem) {
@@ -41,8 +57,10 @@ double collision_gap(const Problem& problem) {
 
 // The paper's beam is drawn with the depth that its section was made with, 0.1 % more than √(12 I/A).
 double beam_depth(const Beam& beam) {
-    if (beam.area == Beam{}.area && beam.second_moment == Beam{}.second_moment) return beam.depth.value_or(kPaperDepth);
-    return beam.depth.value_or(std::sqrt(12 * beam.second_moment / beam.area));
+    if (beam.depth) return *beam.depth;
+    if (beam.section) return 2 * section_properties(*beam.section).c_max;
+    if (beam.area == Beam{}.area && beam.second_moment == Beam{}.second_moment) return kPaperDepth;
+    return std::sqrt(12 * beam.second_moment / beam.area);
 }
 
 double contact_offset(const Problem& problem) {
@@ -60,8 +78,10 @@ CamPose cam_pose(const Cam& cam, double t) {
 
 // In factors that cannot overflow together.
 double first_clamped_frequency(const Beam& b) {
-    return kFirstClampedFrequency * std::sqrt(b.youngs_modulus) * std::sqrt(b.second_moment) /
-           (std::sqrt(b.density) * std::sqrt(b.area)) / b.length / b.length;
+    const SectionProperties section = section_properties(b);
+    const MaterialProperties material = material_properties(b);
+    return kFirstClampedFrequency * std::sqrt(material.youngs_modulus) * std::sqrt(section.second_moment) /
+           (std::sqrt(material.density) * std::sqrt(section.area)) / b.length / b.length;
 }
 
 double impact_depth(double exponent, double stiffness, double mass, double speed) {

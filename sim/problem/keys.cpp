@@ -72,18 +72,61 @@ static void visit(Visitor& v, Hub& hub) {
 
 constexpr Range kPoissonRatio{-1, 0.5, true, true, nullptr};
 
+static void visit(Visitor& v, Rectangle& s) {
+    v.number(required("width", "\"25 mm\""), s.width, dim::kLength, kPositive,
+             "Width b, perpendicular to the plane of the motion: the length of the line contact with the cam.");
+    v.number(required("height", "\"0.8 mm\""), s.height, dim::kLength, kPositive,
+             "Height h, in the plane of the motion: the beam bends across it, I = b h³/12.");
+}
+
+static void visit(Visitor& v, Circle& s) {
+    v.number(required("diameter", "\"5 mm\""), s.diameter, dim::kLength, kPositive, "Diameter.");
+}
+
+static void visit(Visitor& v, Tube& s) {
+    v.number(required("diameter", "\"10 mm\""), s.diameter, dim::kLength, kPositive, "Outer diameter.");
+    v.number(required("wall", "\"1 mm\""), s.wall, dim::kLength, kPositive,
+             "Thickness of the wall, at most half the diameter.");
+}
+
+static void visit(Visitor& v, CustomSection& s) {
+    v.number(required("area", "\"50 mm^2\""), s.area, dim::kArea, kPositive, "Area A.");
+    v.number(required("second_moment", "\"400 mm^4\""), s.second_moment, dim::kSecondMoment, kPositive,
+             "Second moment of area I about the axis perpendicular to the plane of the motion.");
+    v.number(required("c_max", "\"5 mm\""), s.c_max, dim::kLength, kPositive,
+             "Distance of the outermost fibre from the neutral axis, in the plane of the motion.");
+}
+
+static void visit(Visitor& v, Section& section) {
+    v.alternatives({alternative<Rectangle>(section, {{"type", "rectangle"}}, "A solid rectangle."),
+                    alternative<Circle>(section, {{"type", "circle"}}, "A solid rod."),
+                    alternative<Tube>(section, {{"type", "tube"}}, "A round tube."),
+                    alternative<CustomSection>(section, {{"type", "custom"}}, "Any section, by its numbers.")});
+}
+
+// A section or a material replaces the numbers that follow from it; writers leave those out.
 static void visit(Visitor& v, Beam& beam) {
     v.number("length", beam.length, dim::kLength, kPositive, "Length L.");
-    v.number("area", beam.area, dim::kArea, kPositive, "Cross-section area A.");
-    v.number("second_moment", beam.second_moment, dim::kSecondMoment, kPositive, "Second moment of area I.");
-    v.number("density", beam.density, dim::kDensity, kPositive, "Density ρ.");
-    v.number("youngs_modulus", beam.youngs_modulus, dim::kPressure, kPositive, "Young's modulus E.");
-    v.number("poisson_ratio", beam.poisson_ratio, dim::kNone, kPoissonRatio,
+    v.object(written_if(beam.section.has_value(), "section"), beam.section,
+             "Cross-section, in place of \"area\" and \"second_moment\".");
+    v.number(written_if(!beam.section, "area"), beam.area, dim::kArea, kPositive, "Cross-section area A.");
+    v.number(written_if(!beam.section, "second_moment"), beam.second_moment, dim::kSecondMoment, kPositive,
+             "Second moment of area I.");
+    v.choice("material", beam.material,
+             "Material, in place of \"density\", \"youngs_modulus\" and \"poisson_ratio\"; typical values, listed with "
+             "their sources in sim/MODEL.md (S95).");
+    v.number(written_if(!beam.material, "density"), beam.density, dim::kDensity, kPositive, "Density ρ.");
+    v.number(written_if(!beam.material, "youngs_modulus"), beam.youngs_modulus, dim::kPressure, kPositive,
+             "Young's modulus E.");
+    v.number(written_if(!beam.material, "poisson_ratio"), beam.poisson_ratio, dim::kNone, kPoissonRatio,
              "Poisson's ratio ν; used by the Hertz stiffness only.");
+    for (const char* number : {"area", "second_moment"}) v.exclusive("section", number);
+    for (const char* number : {"density", "youngs_modulus", "poisson_ratio"}) v.exclusive("material", number);
     v.number(
         derived("depth"), beam.depth, dim::kLength, kPositive,
-        "Depth h of the cross-section; drawn, and used by the contact offset \"half-depth\". By default √(12 I/A), "
-        "that of a rectangle; for the default area and second moment 36.8 mm.");
+        "Depth h of the cross-section; drawn, and used by the contact offset \"half-depth\" and, without a section, by "
+        "the bending stress. By default that of the section: its height, its diameter or 2 c_max; without a section "
+        "√(12 I/A), that of a rectangle; for the default area and second moment 36.8 mm.");
     v.choice("model", beam.model, "Beam model, from rigid to the exact elastica.");
     v.choice("basis", beam.basis,
              "Shape functions; auto: cantilever for a prescribed drive and for the model paper, else hub-beam.");
@@ -105,10 +148,13 @@ static void visit(Visitor& v, Cam& cam) {
              "Distance e of the disc's centre from C, less than R.");
     v.number("phase", cam.phase, dim::kAngle, kAny, "Counter-clockwise angle of the disc's centre about C at t = 0.");
     v.number("speed", cam.speed, dim::kAngularSpeed, kAny, "Angular speed ω, positive clockwise.");
-    v.number("poisson_ratio", cam.poisson_ratio, dim::kNone, kPoissonRatio,
+    v.choice("material", cam.material,
+             "Material, for the Hertz stiffness, in place of \"youngs_modulus\" and \"poisson_ratio\".");
+    v.number(written_if(!cam.material, "poisson_ratio"), cam.poisson_ratio, dim::kNone, kPoissonRatio,
              "Poisson's ratio; used by the Hertz stiffness only.");
-    v.number("youngs_modulus", cam.youngs_modulus, dim::kPressure, kPositive,
+    v.number(written_if(!cam.material, "youngs_modulus"), cam.youngs_modulus, dim::kPressure, kPositive,
              "Young's modulus, for the Hertz stiffness; by default that of the beam.");
+    for (const char* number : {"poisson_ratio", "youngs_modulus"}) v.exclusive("material", number);
 }
 
 // ---- contact ---------------------------------------------------------------------------------
@@ -146,9 +192,14 @@ static void visit(Visitor& v, ApproachFloor& floor) {
 static void visit(Visitor& v, Contact& contact) {
     v.choice("model", contact.model,
              "compliant: a contact force as a function of the penetration; restitution: impulses.");
-    v.number("stiffness", contact.stiffness, of_contact_stiffness(contact.exponent), kPositive,
-             "Contact stiffness K in F = K δⁿ; \"hertz\": computed from the materials.", "hertz");
-    v.number("exponent", contact.exponent, dim::kNone, between(1, 2), "Exponent n in F = K δⁿ.");
+    v.number(
+        "stiffness", contact.stiffness, of_contact_stiffness(contact.exponent), kPositive,
+        "Contact stiffness K in F = K δⁿ. \"hertz\": computed from the materials, for a rectangular section as the "
+        "line contact of the disc with a flat face of that width, else as that of a sphere of the cam's radius with "
+        "a plane.",
+        "hertz");
+    v.number(derived("exponent"), contact.exponent, dim::kNone, between(1, 2),
+             "Exponent n in F = K δⁿ; by default 1.5, for Hertz's line contact 10/9.");
     v.choice("damping", contact.damping, "Dissipation law of the model compliant.");
     v.number("restitution", contact.restitution, dim::kNone, between(0, 1),
              "Coefficient of restitution, parameter of the dissipation law or the impact law.");

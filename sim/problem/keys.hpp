@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "sim/problem/constants.hpp"
 #include "sim/problem/dimension.hpp"
 #include "sim/problem/problem.hpp"
 
@@ -36,16 +37,21 @@ constexpr Key derived(const char* name) {
 
 struct Unit {
     Dimension dimension;
-    const double* exponent = nullptr;  // n of a stiffness in N/m^n, an optional number; the value of another key
-    bool plain = false;                // JSON number only, no text with a unit
+    const std::optional<double>* exponent = nullptr;  // n of a stiffness in N/m^n; the value of another key
+    bool plain = false;                               // JSON number only, no text with a unit
 
     // NOLINTNEXTLINE(google-explicit-constructor): most units need only a dimension
     constexpr Unit(const Dimension& of) : dimension(of) {}
-    constexpr Unit(const Dimension& of, const double* n, bool number) : dimension(of), exponent(n), plain(number) {}
-    Dimension resolved() const { return exponent ? dimension::contact_stiffness(*exponent) : dimension; }
+    constexpr Unit(const Dimension& of, const std::optional<double>* n, bool number)
+        : dimension(of), exponent(n), plain(number) {}
+    Dimension resolved() const {
+        return exponent ? dimension::contact_stiffness(exponent->value_or(kPointExponent)) : dimension;
+    }
     std::string symbol() const { return exponent ? "N/m^n" : si_unit(dimension); }
 };
-constexpr Unit of_contact_stiffness(const double& exponent) { return {dimension::kSpringStiffness, &exponent, false}; }
+constexpr Unit of_contact_stiffness(const std::optional<double>& exponent) {
+    return {dimension::kSpringStiffness, &exponent, false};
+}
 inline constexpr Unit kPlainNumber{dimension::kNone, nullptr, true};
 
 struct Range {
@@ -106,6 +112,8 @@ class Visitor {
     // The object that is visited has one of these shapes. A tag that is left out follows from the other keys where only
     // one of its words has a shape with all of them; with `explicit_tags` it is required.
     virtual void alternatives(const std::vector<Alternative>& all, bool explicit_tags = false) = 0;
+    // At most one of these keys may be given.
+    virtual void exclusive(const char*, const char*) {}
 
     // ---- in terms of those above ----
     void number(const Key& key, double& value, const Unit& unit, const Range& range, const char* meaning) {
@@ -137,6 +145,19 @@ class Visitor {
     template <class Enum>
     void choice(const Key& key, Enum& value, const char* meaning) {
         choice<Enum>(key, value, names(Enum{}), meaning);
+    }
+    // An absent value is none of the words; writers leave it out.
+    template <class Enum>
+    void choice(const char* key, std::optional<Enum>& value, const char* meaning) {
+        const std::span<const Named<Enum>> among = names(Enum{});
+        std::vector<std::string> words;
+        std::size_t chosen = among.size();
+        for (const Named<Enum>& each : among) {
+            if (each.value == value) chosen = words.size();
+            words.emplace_back(each.name);
+        }
+        keyword(written_if(value.has_value(), key), words, chosen, meaning);
+        if (chosen < among.size()) value = among[chosen].value;
     }
     template <class Struct>
     void object(const Key& key, Struct& value, const char* meaning) {

@@ -8,7 +8,7 @@
 namespace beamcam::sim {
 namespace {
 
-// Visits every number with its path.
+// Visits every number that has a meaning, with its path.
 class NumberWalk final : public NumberVisitor {
   public:
     using Found = std::function<void(NumberKey, const std::function<bool(double)>& set)>;
@@ -16,6 +16,7 @@ class NumberWalk final : public NumberVisitor {
 
     void number(const Key& key, std::optional<double>& value, const Unit& unit, const Range&, const char*,
                 const char*) override {
+        if (!key.written) return;
         found_({path(key), unit.resolved(), false, value.value_or(std::nan(""))},
                [&value](double to) { return value = to, true; });
     }

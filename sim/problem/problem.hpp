@@ -73,10 +73,36 @@ inline std::span<const Named<Basis>> names(Basis) {
     return all;
 }
 
+// The shape of the cross-section. Heights and c_max lie in the plane of the motion, across the beam; widths are
+// perpendicular to that plane, along the axis of the cam.
+struct Rectangle {
+    double width = 0.025;   // b [m], > 0
+    double height = 0.001;  // h [m], > 0
+};
+struct Circle {
+    double diameter = 0.01;  // [m], > 0
+};
+struct Tube {
+    double diameter = 0.01;  // outside [m], > 0
+    double wall = 0.001;     // thickness [m], > 0, at most half the diameter
+};
+struct CustomSection {
+    double area = 1e-4;           // A [m²], > 0
+    double second_moment = 1e-9;  // I [m⁴], > 0
+    double c_max = 0.01;          // distance of the outermost fibre from the neutral axis [m], I <= A c_max²
+};
+using Section = std::variant<Rectangle, Circle, Tube, CustomSection>;
+
+// The materials by name; the table of their values is in materials.cpp.
+enum class Material { steel, aluminium, titanium, brass, pmma, pom, rubber };
+std::span<const Named<Material>> names(Material);
+
 struct Beam {
     double length = 1;                  // L [m], > 0
+    std::optional<Section> section;     // replaces area and second_moment
     double area = 7.2968e-5;            // A [m²], > 0
     double second_moment = 8.2189e-9;   // I [m⁴], > 0
+    std::optional<Material> material;   // replaces density, youngs_modulus and poisson_ratio
     double density = 2766.7;            // ρ [kg/m³], > 0
     double youngs_modulus = 6.8952e10;  // E [Pa], > 0
     double poisson_ratio = 0.3;         // ν [–], −1 < ν < 0.5; Hertz stiffness only
@@ -87,8 +113,8 @@ struct Beam {
     std::vector<double> damping_ratio;   // ζ_i [–], >= 0; empty: none; one value for all modes, or one per mode
     std::optional<double> kelvin_voigt;  // η [s], >= 0; excludes damping_ratio
 
-    double line_density() const { return density * area; }                       // ρA [kg/m]
-    double bending_stiffness() const { return youngs_modulus * second_moment; }  // EI [N m²]
+    double line_density() const;       // ρA [kg/m]
+    double bending_stiffness() const;  // EI [N m²]
 };
 
 // ---- cam -------------------------------------------------------------------------------------
@@ -99,6 +125,7 @@ struct Cam {
     double eccentricity = 0.02;            // e [m], 0 <= e < R
     double phase = 0;                      // ψ₀ [rad], counter-clockwise angle of B about C at t = 0
     double speed = 1;                      // ω [rad/s], positive clockwise: ψ = ψ₀ − ω t
+    std::optional<Material> material;      // replaces youngs_modulus and poisson_ratio
     std::optional<double> youngs_modulus;  // [Pa]; Hertz stiffness only; absent: that of the beam
     double poisson_ratio = 0.3;            // [–]
 };
@@ -167,7 +194,7 @@ struct ApproachFloor {
 struct Contact {
     ContactModel model = ContactModel::compliant;
     std::optional<double> stiffness = 1e8;  // K [N/m^n], > 0; absent: Hertz's (S29)
-    double exponent = 1.5;                  // n [–], 1…2
+    std::optional<double> exponent;         // n [–], 1…2; absent: contact_exponent
     DampingLaw damping = DampingLaw::lankarani_nikravesh;
     double restitution = 0.7;           // c_r [–], 0…1
     ImpactLaw law = ImpactLaw::newton;  // of ContactModel::restitution
@@ -233,9 +260,25 @@ struct Problem {
 
 // ---- derived values --------------------------------------------------------------------------
 
-Basis resolved_basis(const Problem& problem);      // never `automatic`
+// The cross-section of the beam, from its section or its numbers (S94).
+struct SectionProperties {
+    double area = 0, second_moment = 0;  // A [m²], I [m⁴]
+    double c_max = 0;                    // distance of the outermost fibre from the neutral axis [m]
+};
+SectionProperties section_properties(const Section& section);
+SectionProperties section_properties(const Beam& beam);
+struct MaterialProperties {
+    double density = 0, youngs_modulus = 0, poisson_ratio = 0;  // ρ [kg/m³], E [Pa], ν [–]
+};
+MaterialProperties material_properties(Material material);
+MaterialProperties material_properties(const Beam& beam);
+
+Basis resolved_basis(const Problem& problem);  // never `automatic`
+// Hertz's law is that of a line contact if the section is a rectangle, else of a sphere on a plane (S29).
+bool is_line_contact(const Problem& problem);
+double contact_exponent(const Problem& problem);   // n; by default 3/2, of Hertz's line contact 10/9
 double contact_stiffness(const Problem& problem);  // K; Hertz's from the materials (S29) [N/m^n]
-double beam_depth(const Beam& beam);               // h; by default √(12 I/A), that of a rectangle [m]
+double beam_depth(const Beam& beam);               // h; by default that of the section, or √(12 I/A) [m]
 double contact_offset(const Problem& problem);     // d [m]
 double collision_gap(const Problem& problem);      // "auto": proportional to the time of a fall, √(L/g) [s]
 double first_clamped_frequency(const Beam& beam);  // 3.516 √(EI/ρA)/L² [rad/s]

@@ -93,7 +93,7 @@ void Transitions::start_friction() {
     enter_phase();
     const ContactState c = contact_now();
     const double growth =
-        problem().contact.exponent > 1 ? 0 : system_.normal_law().stiffness * std::max(0.0, -c.gap_rate);
+        contact_exponent(problem()) > 1 ? 0 : system_.normal_law().stiffness * std::max(0.0, -c.gap_rate);
     const bool breaks = friction.stiffness * std::fabs(c.slip) > friction.limit * growth;
     if (breaks && c.slip != 0 && !(c.gap < 0))
         state_.phase.friction = c.slip > 0 ? FrictionState::slide_plus : FrictionState::slide_minus;

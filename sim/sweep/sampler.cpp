@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sim/base/numerics.hpp"
 #include "sim/observe/crossings.hpp"
@@ -24,12 +25,24 @@ Sampler::Sampler(const System& system, const Sampling& sampling)
       next_section_(span_.from) {
     motion_.accuracy = kSettledTolerances * system_.problem().solver.rtol;
     if (sampling.kind == SampleKind::apexes || sampling.kind == SampleKind::crossings) step_.emplace(system);
+    if (sampling.kind == SampleKind::peaks) peaks_.emplace(system);
+}
+
+static std::vector<Channel> channels_of_peaks() {
+    return {{ChannelKind::contact_force}, {ChannelKind::stress_max}, {ChannelKind::gap}};
+}
+
+Sampler::Peaks::Peaks(const System& system) : finder(system, channels_of_peaks()) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    extrema.assign(channels_of_peaks().size(), {kInfinity, 0, -kInfinity, 0});
+    sample.fill(kNan);
 }
 
 void Sampler::resume(double, const std::vector<double>& y, const Phase& phase) {
     phase_ = phase;
     system_.set_phase(phase);
     if (step_) step_->set_phase(phase);
+    if (peaks_) peaks_->finder.set_phase(phase);
     if (!phase.touching) left_ = true;
     if (phase.held && system_.problem().beam.model == ModelKind::rigid) motion_.rested = true;
     motion_.end = {y, phase};
@@ -54,6 +67,7 @@ void Sampler::segment(const SegmentInterval& s) {
     if (s.to >= span_.t_from()) {
         if (sampling_.kind == SampleKind::section) sections(s);
         if (step_ && s.to > s.from) events(s);
+        if (peaks_) raise_peaks(s);
     }
     motion_.over_the_top = leaves(s);
     evaluate(s, s.to);
@@ -121,9 +135,48 @@ void Sampler::events(const SegmentInterval& s) {
     }
 }
 
+// Within the time that is kept.
+void Sampler::raise_peaks(const SegmentInterval& s) {
+    SegmentInterval part = s;
+    part.from = std::max(s.from, span_.t_from());
+    part.to = std::min(s.to, end());
+    if (!(part.to > part.from)) return;
+    Peaks& peaks = *peaks_;
+    const double length = part.to - part.from, before = peaks.extrema[0].max;
+    peaks.time += length;
+    if (phase_.touching) peaks.touching += length;
+    peaks.contact = phase_.touching ? peaks.contact + length : 0;
+    peaks.longest = std::max(peaks.longest, peaks.contact);
+    peaks.finder.step(part, peaks.extrema);
+    if (!(peaks.extrema[0].max > std::max(before, 0.0))) return;
+    evaluate(s, peaks.extrema[0].t_max);
+    const double rebound = peaks.sample[kReboundPeak];
+    peaks.sample = sample(peaks.extrema[0].t_max, y_.data());
+    peaks.sample[kReboundPeak] = rebound;
+}
+
+void Sampler::finish_peaks() {
+    Peaks& peaks = *peaks_;
+    if (!(peaks.time > 0)) return;
+    MotionSample& sample = peaks.sample;
+    if (peaks.extrema[0].max > 0) sample[kForcePeak] = peaks.extrema[0].max;
+    sample[kStressPeak] = peaks.extrema[1].max;
+    sample[kGapPeak] = peaks.extrema[2].max;
+    sample[kImpactCount] = static_cast<double>(kept_impacts_);
+    sample[kDurationPeak] = peaks.longest;
+    sample[kLiftShare] = 1 - peaks.touching / peaks.time;
+    motion_.samples.push_back(sample);
+}
+
+SampledMotion Sampler::take() {
+    if (peaks_) finish_peaks();
+    return std::move(motion_);
+}
+
 // The end of summed-up chatter and a start in contact are touches without an approach: no impacts.
 void Sampler::touch(double t, const std::vector<double>& y, const ContactState& contact) {
     impact_.reset();
+    if (peaks_) peaks_->contact = 0;
     if (!(contact.gap_rate < 0) || t == 0) return;
     ++motion_.impacts;
     if (!kept(t)) return;
@@ -138,6 +191,10 @@ void Sampler::touch(double t, const std::vector<double>& y, const ContactState& 
 
 void Sampler::release(double t, const std::vector<double>&, const ContactState& contact) {
     left_ = true;
+    if (peaks_ && kept(t)) {
+        double& fastest = peaks_->sample[kReboundPeak];
+        fastest = std::fmax(fastest, contact.gap_rate);  // of NaN and a number the number
+    }
     if (!impact_) return;
     MotionSample& sample = motion_.samples.back();
     sample[kNormalAfter] = contact.gap_rate;

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "sim/observe/extrema.hpp"
 #include "sim/observe/step_samples.hpp"
 #include "sim/run/run.hpp"
 #include "sim/sweep/sampling.hpp"
@@ -20,9 +21,20 @@ class Sampler final : public MotionObserver {
     void release(double t, const std::vector<double>& y, const ContactState& contact) override;
     bool done() const override { return motion_.over_the_top; }
 
-    SampledMotion take() { return std::move(motion_); }
+    SampledMotion take();
 
   private:
+    // The extremes of the time that is kept.
+    struct Peaks {
+        explicit Peaks(const System& system);  // in place: the finder must not move
+        ExtremaFinder finder;
+        std::vector<Extremum> extrema;    // of the contact force, the stress and the gap
+        double time = 0, touching = 0;    // [s]
+        double contact = 0, longest = 0;  // the present contact and the longest one [s]
+        MotionSample sample = {};         // at the largest force
+    };
+    void raise_peaks(const SegmentInterval& s);
+    void finish_peaks();
     bool kept(double t) const { return t >= span_.t_from(); }
     MotionSample sample(double t, const double* y);
     void strobe(double t, const double* y);
@@ -36,6 +48,7 @@ class Sampler final : public MotionObserver {
     SampleSpan span_;
     System system_;
     std::optional<StepSamples> step_;  // for samples at apexes or crossings
+    std::optional<Peaks> peaks_;
     SampledMotion motion_;
     std::vector<double> y_;
     Phase phase_;

@@ -14,10 +14,11 @@
 namespace beamcam::sim {
 
 enum class SampleKind {
-    impacts,   // each touch, except the end of chatter
-    section,   // stroboscopic: the cam's angle ψ equals `level`, modulo 2π
-    apexes,    // maxima of θ
-    crossings  // `channel` passes `level` in the given direction
+    impacts,    // each touch, except the end of chatter
+    section,    // stroboscopic: the cam's angle ψ equals `level`, modulo 2π
+    apexes,     // maxima of θ
+    crossings,  // `channel` passes `level` in the given direction
+    peaks       // one for all: the largest force, stress, gap … of the time that is kept
 };
 
 // A number of cam turns, or a time that is rounded up to whole cam turns.
@@ -61,12 +62,20 @@ enum SampleColumn : std::size_t {
     kNormalAfter,
     kTangentialAfter,
     kDuration,
+    kForcePeak,  // of the time that is kept: only SampleKind::peaks
+    kStressPeak,
+    kGapPeak,
+    kReboundPeak,
+    kImpactCount,
+    kDurationPeak,
+    kLiftShare,
     kSampleColumns
 };
 using MotionSample = std::array<double, kSampleColumns>;
 struct SampleColumnInfo {
     const char *name, *unit, *meaning;
-    bool of_impacts;  // NaN in other samples
+    std::optional<SampleKind> only = {};  // NaN in other samples
+    bool is_of(SampleKind kind) const { return !only || *only == kind; }
 };
 const std::array<SampleColumnInfo, kSampleColumns>& sample_columns();
 

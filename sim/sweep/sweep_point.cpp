@@ -118,6 +118,7 @@ SweepPoint point_by_run(const Problem& problem, const Sampling& sampling, const 
     if (start) moved = carried(problem, *start);
     point.motion = sample_by_run(problem, sampling, moved ? &*moved : nullptr, progress);
     point.attractor = classify(problem, point.motion);
+    if (sampling.kind == SampleKind::peaks) return point;  // no exponents, which cost more than the motion
     if (point.attractor.kind == AttractorClass::aperiodic && !tangent_refusal(problem))
         point.attractor = by_tangents(problem, sampling, point, progress);
     if (point.attractor.kind != AttractorClass::chaotic) return point;

@@ -46,9 +46,32 @@ TEST(Reader, TheShippedDefaultSaysInUnitsWhatTheDefaultsAreInNumbers) {
     EXPECT_EQ(to_json(scene), to_json([&] {
                   empty.problem.beam.damping_ratio = {0};
                   empty.problem.beam.depth = beam_depth(empty.problem.beam);
+                  empty.problem.contact.exponent = contact_exponent(empty.problem);
                   empty.units = {true, render::SpeedUnit::radians};
                   return empty;
               }()));
+}
+
+TEST(Reader, ASectionAndAMaterialExcludeTheNumbersTheyReplace) {
+    const std::string section = R"({"beam": {"section": {"width": "25 mm", "height": "0.8 mm"}, )";
+    for (const char* number : {"area", "second_moment"})
+        EXPECT_THAT(messages(read(section + fmt::format(R"("{}": 1e-5}}}})", number))),
+                    Contains(AllOf(HasSubstr("\"section\""), HasSubstr(fmt::format("\"{}\"", number)))));
+    for (const char* number : {"density", "youngs_modulus", "poisson_ratio"})
+        EXPECT_THAT(messages(read(fmt::format(R"({{"beam": {{"material": "steel", "{}": 0.3}}}})", number))),
+                    Contains(AllOf(HasSubstr("\"material\""), HasSubstr(fmt::format("\"{}\"", number)))));
+    const Reading ruler = read(section + R"("material": "steel", "length": "300 mm"}})");
+    ASSERT_TRUE(ruler.scene) << ruler.report();
+    EXPECT_NEAR(ruler.scene->problem.beam.line_density(), 0.157, 1e-15);
+    EXPECT_EQ(to_json(*read(to_json(*ruler.scene)).scene), to_json(*ruler.scene));
+}
+
+TEST(Reader, NotesWhatIsAssumedOfABeamOfOnesOwn) {
+    EXPECT_TRUE(read(R"({"cam": {"speed": 5}})").scene->notes.empty());
+    const std::string cam = R"({"cam": {"radius": "90 mm"}, "contact": )";
+    EXPECT_THAT(read(cam + "{}}").scene->notes, ElementsAre(AllOf(HasSubstr("1e+08 N/m^1.5"), HasSubstr("\"hertz\""))));
+    EXPECT_TRUE(read(cam + R"({"stiffness": 1e8}})").scene->notes.empty());
+    EXPECT_TRUE(read(cam + R"({"stiffness": "hertz"}})").scene->notes.empty());
 }
 
 TEST(Reader, EveryKeyReachesItsPlace) {

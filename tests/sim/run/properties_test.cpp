@@ -319,7 +319,7 @@ TEST_P(PropertyOfProblems, ScaledLengthMassAndTimeScaleTheMotion) {
             s.cam->radius *= l;
             s.cam->eccentricity *= l;
             s.cam->speed /= t;
-            s.contact.stiffness = *p.contact.stiffness * force / std::pow(l, p.contact.exponent);
+            s.contact.stiffness = *p.contact.stiffness * force / std::pow(l, contact_exponent(p));
             s.contact.approach_floor.value *= speed;
             *s.contact.collision_gap *= t;
             if (const auto* coulomb = std::get_if<CoulombFriction>(&p.contact.friction))

@@ -54,6 +54,47 @@ TEST(Sampler, TakesTheImpactsOfTheRecorder) {
         }
 }
 
+TEST(Sampler, TakesThePeaksOfTheRecorder) {
+    const Problem p = turning_cam(ModelKind::first_order, ContactModel::compliant);
+    const SampledMotion motion = sample_by_run(p, sampling(SampleKind::peaks), nullptr, {});
+    ASSERT_EQ(motion.samples.size(), 1u);
+    const MotionSample& sample = motion.samples[0];
+    const double end = kTurns * cam_period(p);
+    const std::vector<Impact> impacts = recorded(p).impacts;
+    double rebound = 0, longest = 0, touching = 0;
+    for (const Impact& i : impacts) {
+        const double duration = i.t_end.value_or(end) - i.t_start;
+        if (i.v_n_after) rebound = std::max(rebound, *i.v_n_after);
+        longest = std::max(longest, duration);
+        touching += duration;
+    }
+    const Extremum force = extremum(p, "contact_force", end);
+    EXPECT_NEAR(sample[kForcePeak], force.max, 1e-5 * force.max);
+    EXPECT_NEAR(sample[kSampleTime], force.t_max, 1e-7);
+    const double stress = extremum(p, "stress_max", end).max, gap = extremum(p, "gap", end).max;
+    EXPECT_NEAR(sample[kStressPeak], stress, 1e-5 * stress);
+    EXPECT_NEAR(sample[kGapPeak], gap, 1e-5 * gap);
+    EXPECT_EQ(sample[kReboundPeak], rebound);
+    EXPECT_EQ(sample[kImpactCount], static_cast<double>(impacts.size()));
+    EXPECT_NEAR(sample[kDurationPeak], longest, 1e-12);
+    EXPECT_NEAR(sample[kLiftShare], 1 - touching / end, 1e-9);
+}
+
+// Only the kept time counts: the first impact is the hardest.
+TEST(Sampler, TakesThePeaksAfterTheTransient) {
+    const Problem p = turning_cam(ModelKind::first_order, ContactModel::compliant);
+    Sampling late = sampling(SampleKind::peaks);
+    late.transient.turns = 1;
+    late.keep.turns = 2;
+    const SampledMotion motion = sample_by_run(p, late, nullptr, {});
+    ASSERT_EQ(motion.samples.size(), 1u);
+    double force = 0;
+    for (const Impact& i : recorded(p).impacts)
+        if (i.t_start > cam_period(p)) force = std::max(force, *i.force_peak);
+    EXPECT_NEAR(motion.samples[0][kForcePeak], force, 1e-5 * force);
+    EXPECT_LT(force, extremum(p, "contact_force", cam_period(p)).max);
+}
+
 TEST(Sampler, TakesTheApexesOfTheRecorder) {
     const Problem p = turning_cam(ModelKind::first_order, ContactModel::compliant);
     const SampledMotion motion = sample_by_run(p, sampling(SampleKind::apexes), nullptr, {});

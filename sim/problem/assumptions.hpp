@@ -1,0 +1,19 @@
+// What the model assumes of a beam and a cam other than the paper's: `beamcam check` prints it. MODEL.md (S99).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/problem/problem.hpp"
+
+namespace beamcam::sim {
+
+// "beam: …", "contact.stiffness: …"; `has_stiffness`: the scene gives a contact stiffness.
+std::vector<std::string> assumptions(const Problem& problem, bool has_stiffness);
+
+// By which share shear and rotary inertia would lower the frequency of the highest shape, were it clamped (S99).
+double shear_correction(const Beam& beam);
+// Slope at the tip of the clamped, horizontal beam under its weight, to first order [rad].
+double static_slope(const Problem& problem);
+
+}  // namespace beamcam::sim
