@@ -36,14 +36,17 @@ std::string damping_piece(const sim::Beam& beam) {
     return equation("ζ", fmt::format("{:.3g}", least) + (most > least ? fmt::format(" … {:.3g}", most) : ""));
 }
 
+// "25 × 0.8 mm": lengths in the unit of the first.
+std::string lengths_text(double first, double second) {
+    const Prefix prefix = prefix_for(first);
+    return fmt::format("{:.3g}\u2009×\u2009{:.3g}\u00A0{}m", first / prefix.factor, second / prefix.factor,
+                       prefix.symbol);
+}
+
 struct SectionPiece {
-    std::string operator()(const sim::Rectangle& s) const {
-        return quantity(s.width, "m") + "\u2009×\u2009" + quantity(s.height, "m");
-    }
+    std::string operator()(const sim::Rectangle& s) const { return lengths_text(s.width, s.height); }
     std::string operator()(const sim::Circle& s) const { return "⌀\u2009" + quantity(s.diameter, "m"); }
-    std::string operator()(const sim::Tube& s) const {
-        return "⌀\u2009" + quantity(s.diameter, "m") + "\u2009×\u2009" + quantity(s.wall, "m");
-    }
+    std::string operator()(const sim::Tube& s) const { return "⌀\u2009" + lengths_text(s.diameter, s.wall); }
     std::string operator()(const sim::CustomSection&) const { return {}; }
 };
 

@@ -317,6 +317,18 @@ TEST(CommandLine, PlanPrintsDataAndDoesNothing) {
     EXPECT_FALSE(std::filesystem::exists(folder / "s.mp4"));
 }
 
+TEST(CommandLine, AccuracyOfAChannelStatesThePeakAndItsChanges) {
+    const Folder folder;
+    folder.write("s.json", R"({"beam": {"modes": 1}, "time": {"end": 0.4}})");
+    const Finished found = shell(folder, "$BEAMCAM accuracy s.json --of contact_force -o a.json");
+    ASSERT_EQ(found.code, 0) << found.err;
+    EXPECT_THAT(found.out, HasSubstr("contact_force to 0.4 s: largest"));
+    EXPECT_THAT(found.out, HasSubstr("stiffness × 2"));
+    EXPECT_EQ(shell(folder, "/usr/bin/python3 -m json.tool a.json").code, 0);
+    EXPECT_EQ(shell(folder, "$BEAMCAM accuracy s.json --of force").code, 2);
+    EXPECT_EQ(shell(folder, "$BEAMCAM accuracy s.json --of gap --set cam=null").code, 2);
+}
+
 TEST(CommandLine, InitWritesASceneThatIsFineAndNeverReplacesOne) {
     const Folder folder;
     EXPECT_EQ(shell(folder, "$BEAMCAM init fall").code, 0);

@@ -79,6 +79,30 @@ TEST(Diagram, ShowsSectionsAsPointsAndOtherClassesAsMarksAlone) {
     EXPECT_THAT(figure.accuracy, HasSubstr("tolerance"));
 }
 
+// All motions have peaks, also those without a section; curves run along the key.
+TEST(Diagram, OfPeaksIsACurveForEachStartInPrefixedUnits) {
+    const SweepGrid speeds = grid(R"({"over": [{"key": "cam.speed", "values": [3, 1, 2]}], "sample": "peaks",
+                                      "seed": ["carry-up", "carry-down"]})");
+    output::SweepData peaks = data(speeds, {AttractorClass::unsettled});
+    peaks.columns = {{"force_peak", "N", ""}, {"stress_peak", "Pa", ""}};
+    peaks.rows = [](std::uint64_t) { return 1; };
+    peaks.read = [](std::uint64_t k) {
+        output::StoredPoint p;
+        p.point = k;
+        p.kind = static_cast<int>(AttractorClass::unsettled);
+        p.samples = {static_cast<double>(k), 1e6 * static_cast<double>(1 + k)};
+        return p;
+    };
+    const auto figure = diagram("peaks", speeds, peaks, "stress_peak");
+    ASSERT_THAT(figure.panels, SizeIs(1));
+    EXPECT_THAT(figure.panels[0].y.label, HasSubstr("MPa"));
+    ASSERT_THAT(figure.panels[0].series, SizeIs(2));
+    EXPECT_EQ(figure.panels[0].series[0].x, (std::vector<double>{1, 2, 3}));
+    EXPECT_EQ(figure.panels[0].series[0].y, (std::vector<double>{3, 5, 1}));
+    EXPECT_EQ(figure.panels[0].series[1].y, (std::vector<double>{4, 6, 2}));
+    EXPECT_EQ(diagram("peaks", speeds, peaks, "").panels[0].name, "force_peak");
+}
+
 TEST(Diagram, LeavesOutOfItsCaptionWhatTheSweepVaries) {
     using enum AttractorClass;
     const SweepGrid swept = grid(

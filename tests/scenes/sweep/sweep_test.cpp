@@ -53,6 +53,23 @@ TEST(SweepCommand, WritesARowASampleWithTheColumnsThatScriptsRelyOn) {
     for (std::size_t i = 1; i < rows.size(); ++i) ASSERT_EQ(rows[i].size(), rows[0].size());
 }
 
+TEST(SweepCommand, OfPeaksWritesOneRowForEachMotion) {
+    Folder folder;
+    folder.write("s.json", R"({"beam": {"modes": 1}, "sweep": {"over": [{"key": "cam.speed", "values": [3, 5]}],
+        "sample": "peaks", "transient": {"cam_turns": 0}, "keep": {"time": "0.6 s"}}})");
+    const Finished done = shell(folder, "$BEAMCAM sweep s.json -q --diagram p.svg -o r.csv && cat r.csv");
+    ASSERT_EQ(done.code, 0) << done.err;
+    const auto rows = rows_of(done.out);
+    ASSERT_EQ(rows.size(), 3u);
+    const std::vector<std::string> last(rows[0].end() - 7, rows[0].end());
+    EXPECT_EQ(last, (std::vector<std::string>{"force_peak", "stress_peak", "gap_peak", "rebound_peak", "impacts",
+                                              "duration_peak", "lift_share"}));
+    EXPECT_TRUE(std::filesystem::exists(folder / "p.svg"));
+    for (const char* other : {"--figure bifurcation --value force_peak", "--figure peaks --value gap_peak"})
+        EXPECT_EQ(shell(folder, std::string("$BEAMCAM sweep s.json -q --force --diagram p.svg ") + other).code, 0)
+            << other;
+}
+
 TEST(SweepCommand, HasTheSameBytesWithAnyNumberOfThreads) {
     Folder folder;
     folder.write("s.json", kSweptScene);
