@@ -1,9 +1,11 @@
 #include "render/plot/labels.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 
 #include "render/draw/markup.hpp"
@@ -36,19 +38,26 @@ std::string damping_piece(const sim::Beam& beam) {
     return equation("ζ", fmt::format("{:.3g}", least) + (most > least ? fmt::format(" … {:.3g}", most) : ""));
 }
 
-// "25 × 0.8 mm": lengths in the unit of the first.
-std::string lengths_text(double first, double second) {
-    const Prefix prefix = prefix_for(first);
-    return fmt::format("{:.3g}\u2009×\u2009{:.3g}\u00A0{}m", first / prefix.factor, second / prefix.factor,
-                       prefix.symbol);
+// "300 × 25 × 0.8 mm": lengths in the unit of the first.
+std::string lengths_text(std::initializer_list<double> lengths) {
+    const Prefix prefix = prefix_for(*lengths.begin());
+    std::vector<std::string> numbers;
+    for (const double each : lengths) numbers.push_back(fmt::format("{:.3g}", each / prefix.factor));
+    return fmt::format("{}\u00A0{}m", fmt::join(numbers, "\u2009×\u2009"), prefix.symbol);
 }
 
-struct SectionPiece {
-    std::string operator()(const sim::Rectangle& s) const { return lengths_text(s.width, s.height); }
-    std::string operator()(const sim::Circle& s) const { return "⌀\u2009" + quantity(s.diameter, "m"); }
-    std::string operator()(const sim::Tube& s) const { return "⌀\u2009" + lengths_text(s.diameter, s.wall); }
-    std::string operator()(const sim::CustomSection&) const { return {}; }
-};
+// Length and section; a rectangular beam is a product of three lengths.
+std::string size_piece(const sim::Beam& beam) {
+    const std::string length = equation("L", quantity(beam.length, "m"));
+    if (!beam.section) return length;
+    if (const auto* s = std::get_if<sim::Rectangle>(&*beam.section))
+        return lengths_text({beam.length, s->width, s->height});
+    if (const auto* s = std::get_if<sim::Circle>(&*beam.section))
+        return length + ", ⌀\u2009" + quantity(s->diameter, "m");
+    if (const auto* s = std::get_if<sim::Tube>(&*beam.section))
+        return length + ", ⌀\u2009" + lengths_text({s->diameter, s->wall});
+    return length;
+}
 
 struct FrictionPiece {
     std::string operator()(const sim::NoFriction&) const { return "frictionless"; }
@@ -110,9 +119,7 @@ std::string power_text(double value) {
 
 std::vector<std::string> parameter_pieces(const sim::Problem& problem, SpeedUnit unit) {
     std::vector<std::string> out;
-    out.push_back(equation("L", quantity(problem.beam.length, "m")));
-    std::string section = problem.beam.section ? std::visit(SectionPiece{}, *problem.beam.section) : "";
-    if (!section.empty()) out.push_back(std::move(section));
+    out.push_back(size_piece(problem.beam));
     if (problem.beam.material) out.emplace_back(sim::name(*problem.beam.material));
     if (problem.cam) {
         out.push_back(equation("R", quantity(problem.cam->radius, "m")));
