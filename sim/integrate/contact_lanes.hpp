@@ -27,15 +27,6 @@ struct Frame {
 };
 
 constexpr int kExpansionOrder = 6;
-// Numbers with N derivatives have a distance from the centre that is zero but for these: powers beyond N vanish, and
-// the foot needs the second derivative of the deflection.
-template <class T>
-consteval int expansion_order() {
-    if constexpr (requires { T::kDerivatives; })
-        return 2 + T::kDerivatives;
-    else
-        return kExpansionOrder;
-}
 constexpr std::size_t kMostNodes = 2 * kMaxModes + 24;  // of the integrals of `exact`
 
 // The contact at one instant or eight; names as in ContactState.
@@ -47,7 +38,7 @@ struct ContactKinematics {
     T hub;                           // ∂(n·r)/∂Θ
     T hub_t;                         // ∂(t·r)/∂Θ with the moment of the face
     T cam_n, cam_t;                  // n·Ḃ, t·Ḃ + ωR: power of the cam per force
-    T moment[expansion_order<T>()];  // ∫₀^dx v′ ξʲ/j! dξ
+    T moment[kExpansionOrder];  // ∫₀^dx v′ ξʲ/j! dξ
     T v1;                            // slope
     T shift;                         // a α
 };
@@ -134,7 +125,7 @@ BEAMCAM_INLINE void taylor(const T* c, const T& dx, int count, T& out) {
 // Σ φ⁽ʲ⁺¹⁾ moment_j, so that the rows are the exact derivatives of the expanded gap.
 template <class T>
 BEAMCAM_INLINE void slope_moments(const T* c, const T& dx, T* moment) {
-    constexpr int kOrder = expansion_order<T>();
+    constexpr int kOrder = kExpansionOrder;
     T term[kOrder];  // v⁽ᵐ⁺¹⁾ dxᵐ/m!
     T power = T{} + 1.0;
     for (int m = 0; m < kOrder; ++m) {
@@ -153,7 +144,7 @@ BEAMCAM_INLINE void slope_moments(const T* c, const T& dx, T* moment) {
 template <class T>
 BEAMCAM_INLINE T slope_product(const T* moment, const T* derivatives) {
     T total = derivatives[1] * moment[0];
-    for (int j = 1; j < expansion_order<T>(); ++j) total = total + derivatives[1 + j] * moment[j];
+    for (int j = 1; j < kExpansionOrder; ++j) total = total + derivatives[1 + j] * moment[j];
     return total;
 }
 
@@ -161,7 +152,7 @@ template <class T>
 void ContactExpansion::evaluate(const T* q, const T* v, const Frame<T>& frame, double gap_offset, T* hq,
                                 ContactKinematics<T>& touch, int corrections) const {
     if (exact()) return evaluate_exact(q, v, frame, gap_offset, hq, touch, corrections);
-    constexpr int kDegree = expansion_order<T>();
+    constexpr int kDegree = kExpansionOrder;
     // Deflection, its rate and their derivatives at the centre.
     T c[kDegree + 1], d[kDegree + 1];
     product(kDegree + 1, n_, y_.data(), q, c);
@@ -238,7 +229,7 @@ BEAMCAM_INLINE void ContactExpansion::finish(const Point<T>& at, const T& ex, co
 template <class T>
 BEAMCAM_INLINE void ContactExpansion::rows(const ContactKinematics<T>& touch, const T* hq, std::size_t i, bool friction,
                                            T& jn, T& jt) const {
-    constexpr int kDegree = expansion_order<T>();
+    constexpr int kDegree = kExpansionOrder;
     const double* y = transposed_.data() + i * (kOrder + 1);
     const T& x = touch.dx;
     T phi = T{} + y[kDegree], axial{};

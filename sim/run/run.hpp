@@ -18,8 +18,7 @@ namespace beamcam::sim {
 struct RunOptions {
     MotionObserver* observer = nullptr;   // follows the motion and may end the run
     const InitialState* start = nullptr;  // initial state; null: that of the problem
-    // Wraps the integrator of the problem's solver into another one.
-    std::function<std::unique_ptr<Integrator>(System&, std::unique_ptr<Integrator>)> around = {};
+    const System* like = nullptr;         // a system of the problem, whose tables are shared
 };
 
 class Run {

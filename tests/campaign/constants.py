@@ -8,7 +8,7 @@ import re
 import sys
 
 # Constants that determine the layout of memory.
-FIXED = {"kTangentMemories", "kMaxPieces"}
+FIXED = {"kMaxPieces"}
 
 source, out = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
 rows = []

@@ -6,7 +6,7 @@
 namespace beamcam::sim::testing {
 namespace {
 
-constexpr double kEnd = 0.42, kLongest = 60;
+constexpr double kBudgetEnd = 0.42, kLongest = 60;
 
 const PeakRow& row(const PeakBudget& budget, const std::string& change) {
     for (const PeakRow& each : budget.rows)
@@ -16,13 +16,13 @@ const PeakRow& row(const PeakBudget& budget, const std::string& change) {
 
 TEST(PeakBudget, RowsAreThePeaksOfTheVariants) {
     Problem p = fixed_cam(ModelKind::first_order, 4);
-    const PeakBudget budget = peak_budget(p, channel("contact_force"), kEnd, kLongest);
-    EXPECT_EQ(budget.peak, extremum(p, "contact_force", kEnd).max);
+    const PeakBudget budget = peak_budget(p, channel("contact_force"), kBudgetEnd, kLongest);
+    EXPECT_EQ(budget.peak, extremum(p, "contact_force", kBudgetEnd).max);
     p.beam.modes = 8;
-    EXPECT_EQ(row(budget, "8 modes").peak, extremum(p, "contact_force", kEnd).max);
+    EXPECT_EQ(row(budget, "8 modes").peak, extremum(p, "contact_force", kBudgetEnd).max);
     p.beam.modes = 4;
     p.contact.stiffness = 2e8;
-    EXPECT_EQ(row(budget, "stiffness × 2").peak, extremum(p, "contact_force", kEnd).max);
+    EXPECT_EQ(row(budget, "stiffness × 2").peak, extremum(p, "contact_force", kBudgetEnd).max);
     EXPECT_NEAR(relative_change(budget, row(budget, "tolerance / 100")), 0, 1e-5);
 }
 
@@ -32,7 +32,7 @@ TEST(PeakBudget, OfARigidBeamGrowsWithTheRootOfTheStiffness) {
     p.contact.exponent = 1;
     p.contact.stiffness = 1e9;
     p.contact.damping = DampingLaw::none;
-    const PeakBudget budget = peak_budget(p, channel("contact_force"), kEnd, kLongest);
+    const PeakBudget budget = peak_budget(p, channel("contact_force"), kBudgetEnd, kLongest);
     EXPECT_NEAR(relative_change(budget, row(budget, "stiffness × 2")), std::sqrt(2.0) - 1, 1e-3);
     EXPECT_NE(budget.recommendation.find("stiffness"), std::string::npos);
 }
@@ -40,7 +40,7 @@ TEST(PeakBudget, OfARigidBeamGrowsWithTheRootOfTheStiffness) {
 TEST(PeakBudget, WarnsOfAForceThatHasNotConverged) {
     Problem p = fixed_cam(ModelKind::first_order, 2);
     p.contact.stiffness = 1e10;
-    const PeakBudget budget = peak_budget(p, channel("contact_force"), kEnd, kLongest);
+    const PeakBudget budget = peak_budget(p, channel("contact_force"), kBudgetEnd, kLongest);
     EXPECT_NE(budget.recommendation.find("not converged"), std::string::npos) << budget.recommendation;
 }
 
