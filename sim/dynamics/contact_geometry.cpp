@@ -13,44 +13,43 @@ ContactGeometry::ContactGeometry(const Problem& problem, const Model& model)
       length_(model.length()),
       offset_(contact_offset(problem)),
       samples_(problem.beam.model == ModelKind::exact ? 4 * model.size() + kIntervalsOfExact
-                                                      : 2 * model.size() + kIntervalsOfModes),
-      x_last_(0.5 * length_) {}
+                                                      : 2 * model.size() + kIntervalsOfModes) {}
 
 // A starting point for Newton's method: the foot on the straight beam if there is only one foot, else the nearest of a
 // few points, which is not where a straight beam is farther by twice the deflection.
-void ContactGeometry::search_whole_beam(const Model& model, const GapBound& bound, Vec2 disc) {
+double ContactGeometry::near_foot(const Model& model, const GapBound& bound, Vec2 disc) const {
     const double* q = model.coordinates();
     const Vec2 along = unit(q[0]);
     const double straight_foot = std::clamp(dot(disc, along) - hub_radius_, 0.0, length_);
-    if (bound.nearly_straight(q + 1)) {
-        x_last_ = straight_foot;
-        return;
-    }
+    if (bound.nearly_straight(q + 1)) return straight_foot;
     const double none[kMaxSize] = {}, step = length_ / samples_;
     const auto straight = [&](double x) { return norm((hub_radius_ + x) * along - disc); };
     const double most = straight(straight_foot) + step + 2 * bound.deflection(q, none);
-    double best = std::numeric_limits<double>::infinity();
+    double best = std::numeric_limits<double>::infinity(), nearest = straight_foot;
+    BeamPoint at;
     for (int i = 0; i <= samples_; ++i) {
         const double x = length_ * i / samples_;
         if (straight(x) > most) continue;
-        model.point(x, at_);
-        const Vec2 d = at_.r - disc;
+        model.point(x, at);
+        const Vec2 d = at.r - disc;
         const double distance = dot(d, d);
         if (distance < best) {
             best = distance;
-            x_last_ = x;
+            nearest = x;
         }
     }
+    return nearest;
 }
 
 // The foot of the perpendicular from B: a root of r′·(r − B) with r″·(r − B) + r′·r′ > 0          (S24)
-Vec2 ContactGeometry::foot(const Model& model, Vec2 disc, ContactState& c) {
-    double x = x_last_, low = 0, high = length_;
+BeamPoint ContactGeometry::foot(const Model& model, Vec2 disc, double x, ContactState& c) const {
+    BeamPoint at;
+    double low = 0, high = length_;
     c.at_end = false;
     for (int iteration = 0; iteration < kMaxFootSteps; ++iteration) {
-        model.point(x, at_);
-        const Vec2 d = at_.r - disc;
-        const double slope = dot(at_.r1, d);
+        model.point(x, at);
+        const Vec2 d = at.r - disc;
+        const double slope = dot(at.r1, d);
         if ((x <= 0 && slope >= 0) || (x >= length_ && slope <= 0)) {
             c.at_end = true;
             break;
@@ -59,10 +58,10 @@ Vec2 ContactGeometry::foot(const Model& model, Vec2 disc, ContactState& c) {
             high = std::min(high, x);
         else
             low = std::max(low, x);
-        const double bend = dot(at_.r2, d) + dot(at_.r1, at_.r1);
+        const double bend = dot(at.r2, d) + dot(at.r1, at.r1);
         double next = bend > 0 ? x - slope / bend : (slope > 0 ? low : high);
         if (bend > 0 && std::fabs(next - x) <= kLastFootChange * length_ && next > 0 && next < length_) {
-            if (next != x) model.point(x = next, at_);
+            if (next != x) model.point(x = next, at);
             break;
         }
         if (next <= low || next >= high) {
@@ -75,26 +74,24 @@ Vec2 ContactGeometry::foot(const Model& model, Vec2 disc, ContactState& c) {
         if (next == x || (inside && std::fabs(next - x) <= kFootChange * length_)) break;
         x = next;
     }
-    x_last_ = x;
     c.x = x;
-    return at_.r - disc;
+    return at;
 }
 
-ContactState ContactGeometry::evaluate(const Model& model, const GapBound& bound, double t, bool search, double shift) {
+ContactState ContactGeometry::evaluate(const Model& model, const GapBound& bound, double t, double shift) const {
     ContactState c;
     const CamPose pose = cam_pose(cam_, t);
-    if (search || search_next_) search_whole_beam(model, bound, pose.disc);
-    search_next_ = false;
-    const Vec2 d = foot(model, pose.disc, c);
+    const BeamPoint at = foot(model, pose.disc, near_foot(model, bound, pose.disc), c);
+    const Vec2 d = at.r - pose.disc;
     const double distance = norm(d);
     c.normal = d * (1 / distance);
     c.tangent = -perp(c.normal);
-    c.side = c.at_end ? 0 : std::copysign(1, cross(at_.r1, d));
+    c.side = c.at_end ? 0 : std::copysign(1, cross(at.r1, d));
     c.gap = distance - cam_.radius - offset_ + shift;   // (S25)
-    c.gap_rate = dot(c.normal, at_.v - pose.velocity);  // (S26)
+    c.gap_rate = dot(c.normal, at.v - pose.velocity);  // (S26)
     // χ̇, the angular velocity of the section; the contact face is at a distance d from the centre line (S27).
-    const double chi_dot = cross(at_.r1, at_.v1) / dot(at_.r1, at_.r1);
-    c.slip = dot(c.tangent, at_.v - pose.velocity) + offset_ * chi_dot - cam_.speed * cam_.radius;
+    const double chi_dot = cross(at.r1, at.v1) / dot(at.r1, at.r1);
+    c.slip = dot(c.tangent, at.v - pose.velocity) + offset_ * chi_dot - cam_.speed * cam_.radius;
     return c;
 }
 

@@ -18,35 +18,25 @@ struct ContactState {
     double factor = 1;             // 1 + D δ̇/δ̇₋; the force is clamped where this is negative
 };
 
-// Evaluates the contact in the state of a Model. Each search for the foot begins at the previous one.
+// Evaluates the contact in the state of a Model.
 class ContactGeometry {
   public:
     ContactGeometry(const Problem& problem, const Model& model);
 
-    // Makes the next evaluation search the whole beam.
-    void search_again() { search_next_ = true; }
-    // Makes the next evaluation begin at x.
-    void begin_at(double x) {
-        x_last_ = x;
-        search_next_ = false;
-    }
-    // Everything but the forces. `search`: search the whole beam for the foot. `shift` is added to the gap [m].
-    ContactState evaluate(const Model& model, const GapBound& bound, double t, bool search, double shift);
+    // Everything but the forces. `shift` is added to the gap [m].
+    ContactState evaluate(const Model& model, const GapBound& bound, double t, double shift) const;
     // J_n = n·∂r/∂ξ and J_t = t·∂r/∂ξ + d ∂χ/∂ξ (S28).
     void rows(const Model& model, const ContactState& c, double* jn, double* jt) const;
     // g̈ at ξ̈ = 0 (S44).
     double gap_acceleration_at_rest(const Model& model, double t, const ContactState& c) const;
 
   private:
-    void search_whole_beam(const Model& model, const GapBound& bound, Vec2 disc);
-    Vec2 foot(const Model& model, Vec2 disc, ContactState& c);
+    double near_foot(const Model& model, const GapBound& bound, Vec2 disc) const;
+    BeamPoint foot(const Model& model, Vec2 disc, double x, ContactState& c) const;
 
     Cam cam_;
     double hub_radius_, length_, offset_;
     int samples_;  // intervals of a search along the whole beam
-    double x_last_;
-    BeamPoint at_;
-    bool search_next_ = true;
 };
 
 }  // namespace beamcam::sim

@@ -143,7 +143,7 @@ bool equilibrium_on_cam(System& system, double t, FollowingState& s) {
     }
     const auto residual = [&](const Eigen::VectorXd& at, Eigen::VectorXd& r) {
         std::copy_n(at.data(), n, y.begin());
-        const ContactState c = system.contact(t, y.data(), true);
+        const ContactState c = system.contact(t, y.data());
         // Compliant contact: a separated beam is pulled back by a linear spring, so that Newton's method converges.
         const double normal = rigid_contact ? at[n]
                               : c.gap < 0   ? system.normal_law().force(-c.gap, moves ? -c.gap_rate : 0, approach)
@@ -164,7 +164,7 @@ bool equilibrium_on_cam(System& system, double t, FollowingState& s) {
     s.xi = x.head(n);
     if (!found || rigid_contact) return found && x[n] >= -kBalanced * scale[n];
     std::copy_n(x.data(), n, y.begin());
-    return system.contact(t, y.data(), true).gap <= kEquilibriumGap * problem.beam.length;
+    return system.contact(t, y.data()).gap <= kEquilibriumGap * problem.beam.length;
 }
 
 // The start of a beam that follows the turning cam. Equilibria at neighbouring cam angles give the rates, the rates

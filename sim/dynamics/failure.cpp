@@ -34,7 +34,7 @@ BeamState beam_state(double t, System& system, const double* y) {
     out.approach = system.phase().approach;
     if (!system.has_cam()) return out;
     try {
-        const ContactState c = system.contact(t, y, true);
+        const ContactState c = system.contact(t, y);
         const Compliance response = system.compliance(t, y, c);
         if (response.nn > 0) out.mass = 1 / response.nn;
         out.x = c.x;

@@ -63,9 +63,7 @@ System::System(const System& other)
       n_(other.n_),
       offset_(other.offset_),
       highest_frequency_(other.highest_frequency_),
-      baumgarte_rate_(other.baumgarte_rate_) {
-    search_again();
-}
+      baumgarte_rate_(other.baumgarte_rate_) {}
 
 double System::damping_ratio() const {
     double ratio = 0.5 * problem_.beam.kelvin_voigt.value_or(0) * highest_frequency_;
@@ -87,19 +85,19 @@ void System::set_state(double t, const double* y) {
     model_->set(xi, rate);
 }
 
-ContactState System::contact(double t, const double* y, bool search) {
+ContactState System::contact(double t, const double* y) {
     set_state(t, y);
-    return current_contact(t, y, search);
+    return current_contact(t, y);
 }
 
-ContactState System::contact_geometry(double t, bool search) {
+ContactState System::contact_geometry(double t) {
     BEAMCAM_ASSERT(has_cam());
     ++gap_evaluations;
-    return geometry_.evaluate(*model_, gap_bound_, t, search, phase_.gap_offset);
+    return geometry_.evaluate(*model_, gap_bound_, t, phase_.gap_offset);
 }
 
-ContactState System::current_contact(double t, const double* y, bool search) {
-    ContactState c = contact_geometry(t, search);
+ContactState System::current_contact(double t, const double* y) {
+    ContactState c = contact_geometry(t);
     if (phase_.held) {
         double acc[kMaxSize];
         require_inertia(acc);
@@ -136,10 +134,10 @@ void System::rhs(double t, const double* y, double* dy) {
     if (drive_.has_torque()) ledger[kWorkDrive] = drive_.torque(t) * model_->hub_rate();
     ContactState c;
     if (phase_.held) {
-        c = contact_geometry(t, false);
+        c = contact_geometry(t);
         ledger[kWorkDrive] += constrain(t, c, acc, true);
     } else if (phase_.touching) {
-        c = current_contact(t, y, false);
+        c = current_contact(t, y);
         add_contact_force(c, acc);
         if (has_bristle()) dy[2 * n_] = phase_.friction == FrictionState::stick ? c.slip : 0;
     }
@@ -210,7 +208,7 @@ double System::free_gap_acceleration(double t, const double* y) {
     set_state(t, y);
     require_inertia(acc);
     add_torque(t, acc);
-    ContactState c = contact_geometry(t, true);
+    ContactState c = contact_geometry(t);
     constrain(t, c, acc, false);
     return free_gap_acceleration_;
 }

@@ -45,13 +45,7 @@ class System final : public Ode {
     explicit System(const Problem& problem);
     System(const System& other);  // shares the constant tables
 
-    // Also makes the next evaluation of the contact search the whole beam.
-    void set_phase(const Phase& phase) {
-        phase_ = phase;
-        search_again();
-    }
-    void search_again() { geometry_.search_again(); }
-    void begin_contact_at(double x) { geometry_.begin_at(x); }
+    void set_phase(const Phase& phase) { phase_ = phase; }
     const Phase& phase() const { return phase_; }
     void rhs(double t, const double* y, double* dy) override;
 
@@ -70,11 +64,10 @@ class System final : public Ode {
 
     // Sets the state of the model, with θ and θ̇ of a prescribed drive.
     void set_state(double t, const double* y);
-    // Contact geometry and, in contact, the forces of the present phase. `search`: search the whole beam for the foot,
-    // else near the previous foot.
-    ContactState contact(double t, const double* y, bool search);
+    // Contact geometry and, in contact, the forces of the present phase.
+    ContactState contact(double t, const double* y);
     // The contact of the state of `set_state`.
-    ContactState current_contact(double t, const double* y, bool search);
+    ContactState current_contact(double t, const double* y);
 
     // After `contact`: f ← generalized forces in that state with the normal force `normal` [N] and its Coulomb
     // friction; array of `coordinates`. False if the inertia is not positive.
@@ -122,7 +115,7 @@ class System final : public Ode {
     long gap_evaluations = 0;
 
   private:
-    ContactState contact_geometry(double t, bool search);
+    ContactState contact_geometry(double t);
     void contact_rows(const ContactState& c, double* jn, double* jt) const { geometry_.rows(*model_, c, jn, jt); }
     void add_torque(double t, double* f) const;
     void add_contact_force(const ContactState& c, double* f) const;

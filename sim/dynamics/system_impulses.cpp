@@ -28,7 +28,7 @@ Compliance System::compliance(double t, const double* y, const ContactState& c) 
 ContactState System::hold(double t, double off, double* y) {
     BEAMCAM_ASSERT(phase_.held);
     double jn[kMaxSize], jt[kMaxSize], jump[kMaxSize], per_impulse = 0;
-    const ContactState c = contact(t, y, false);
+    const ContactState c = contact(t, y);
     contact_rows(c, jn, jt);
     std::copy_n(jn, n_, jump);
     respond(jump);

@@ -171,7 +171,7 @@ StartGap straight_gap(const Problem& p) {
 StartGap gap_at_start(const Problem& p) {
     System system(p);
     const InitialState start = initial_state(system);
-    const ContactState c = system.contact(0, start.y.data(), true);
+    const ContactState c = system.contact(0, start.y.data());
     return {c.gap, c.x};
 }
 

@@ -67,8 +67,15 @@ void ContactExpansion::centre(double x) {
 }
 
 void ContactExpansion::centre_near(double x) {
-    if (exact()) return expand(x);  // its range changes from place to place
-    const double pitch = 2 * kKeptRange * range_, place = std::min(length_, pitch * std::round(x / pitch));
+    double place = 0;
+    if (exact()) {
+        // A wave of `centre_exact` is as long in the angle φ, x = ½L(1 − cos φ), wherever it is.
+        const double pitch = 2 * kKeptRange * trusted_ / (static_cast<double>(n_) + 0.5);
+        place = 0.5 * length_ * (1 - std::cos(pitch * std::round(std::acos(1 - 2 * x / length_) / pitch)));
+    } else {
+        const double pitch = 2 * kKeptRange * range_;
+        place = std::min(length_, pitch * std::round(x / pitch));
+    }
     if (place != x_) expand(place);
 }
 

@@ -209,7 +209,7 @@ class Exponential final : public Integrator {
     }
 
     bool begin_touch(double t, const double* y) {
-        const ContactState c = system_.contact(t, y, true);
+        const ContactState c = system_.contact(t, y);
         if (c.at_end) return false;
         contact_->begin_touch(c);
         crawls_ = 0;

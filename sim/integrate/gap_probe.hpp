@@ -12,24 +12,19 @@ namespace beamcam::sim {
 
 class GapProbe {
   public:
-    // The system must outlive the probe. `apart`: consecutive instants are not close to each other.
-    explicit GapProbe(System& system, bool apart = false);
+    // The system must outlive the probe.
+    explicit GapProbe(System& system);
 
     // Gap, its rate, slip, x and the normal of the contact as System::contact has them, to rounding; nothing else is
-    // filled in. `search`: the foot is not near that of the last evaluation. In contact the foot is
-    // followed, in flight a strongly bent beam is searched along its length.
-    ContactState evaluate(double t, const double* y, bool search);
-    // Later results do not depend, not even by rounding, on earlier evaluations.
-    void forget();
+    // filled in.
+    ContactState evaluate(double t, const double* y);
 
   private:
-    bool expanded(double t, const double* y, bool search, ContactState& c);
+    bool expanded(double t, const double* y, ContactState& c);
 
     System& system_;
-    bool apart_;
     std::unique_ptr<ContactExpansion> expansion_;  // null: System::contact is always used
     std::vector<double> hq_;
-    double x_ = -1;
 };
 
 }  // namespace beamcam::sim

@@ -27,7 +27,7 @@ Model& ChannelEvaluator::model() {
 
 const ContactState& ChannelEvaluator::contact() {
     if (!contact_known_) {
-        contact_ = system_.contact(t_, y_.data(), !system_.phase().touching);
+        contact_ = system_.contact(t_, y_.data());
         contact_known_ = placed_ = true;
     }
     return contact_;
@@ -198,7 +198,6 @@ const double* ChannelEvaluator::acceleration() {
     if (forces_known_ || !touching) {
         drive_power_ = system_.current_acceleration(t_, touching ? contact() : ContactState{}, acceleration_);
     } else {
-        system_.begin_contact_at(contact().x);
         drive_power_ = system_.acceleration(t_, y_.data(), acceleration_);
         system_.set_state(t_, y_.data());
     }

@@ -126,7 +126,6 @@ void Recorder::note_balance() {
 
 // Where a step ends.
 void Recorder::record_balance(const SegmentInterval& s) {
-    evaluator_.system().search_again();
     s.segment->value(s.to, y_.data());
     evaluator_.set(s.to, y_.data());
     constexpr int kLast = TouchSamples::kCount - 1;

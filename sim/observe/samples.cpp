@@ -103,7 +103,6 @@ void SampleRecorder::sweep(const std::vector<double>& times, Cursor& cursor, con
 void SampleRecorder::evaluate_at(const SegmentInterval& s, double t) {
     s.segment->value(std::max(t, s.from), y_.data());
     evaluator_.set(t, y_.data());
-    evaluator_.system().search_again();
 }
 
 const std::vector<double>& SampleRecorder::row(const SegmentInterval& s, double t,

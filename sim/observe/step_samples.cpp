@@ -31,7 +31,7 @@ struct StepSamples::Needs {
 };
 
 StepSamples::StepSamples(const System& system)
-    : evaluator_(system), probe_(evaluator_.system(), true), y_(static_cast<std::size_t>(system.size)) {
+    : evaluator_(system), probe_(evaluator_.system()), y_(static_cast<std::size_t>(system.size)) {
     find_modes();
 }
 
@@ -60,8 +60,6 @@ void StepSamples::find_modes() {
 
 void StepSamples::begin(const SegmentInterval& s) {
     step_ = s;
-    evaluator_.system().search_again();
-    probe_.forget();
 }
 
 // Twice the kinetic energy of each mode per mass of the beam; or its whole energy at the start of a motion, which may
@@ -264,7 +262,7 @@ void StepSamples::place_contact(double t) {
     System& system = evaluator_.system();
     const Phase& phase = system.phase();
     if (phase.held) return;
-    ContactState c = probe_.evaluate(t, y_.data(), false);
+    ContactState c = probe_.evaluate(t, y_.data());
     if (phase.touching) {
         c.force = system.normal_law().force(-c.gap, -c.gap_rate, phase.approach);
         c.friction = system.friction().force(phase.friction, c.force, c.slip, system.bristle(y_.data()));

@@ -101,7 +101,7 @@ std::optional<Place> thrown(const Problem& problem, double section, double perio
     System at(at_section(problem, section));
     const auto n = static_cast<std::size_t>(at.coordinates());
     InitialState state{std::vector<double>(size, 0.0), Phase{}, false};
-    const auto contact = [&] { return at.contact(0, state.y.data(), true); };
+    const auto contact = [&] { return at.contact(0, state.y.data()); };
     const auto gap = [&](double angle) {
         state.y[0] = angle;
         return contact().gap;

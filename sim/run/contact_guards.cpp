@@ -57,7 +57,7 @@ Event ContactGuards::first_lift(const Segment& segment) {
     if (segment.touch() && presses_throughout(*segment.touch())) return {};
     const int count = std::max(4, probe_.pieces(segment));
     const Instants time{segment.t0, segment.t1, count};
-    const auto force = [&](double t) { return probe_.contact(segment, t, false).force; };
+    const auto force = [&](double t) { return probe_.contact(segment, t).force; };
     std::array<double, kMaxPieces + 1> f;
     for (int i = 0; i <= count; ++i) f[static_cast<std::size_t>(i)] = force(time(i));
     // A tensile force below this limit is rounding.
@@ -77,7 +77,7 @@ Event ContactGuards::first_lift(const Segment& segment) {
 }
 
 ContactGuards::Guards ContactGuards::evaluate(const Segment& segment, double t) {
-    const ContactState c = probe_.contact(segment, t, false);
+    const ContactState c = probe_.contact(segment, t);
     Guards w{c.side, {t, -c.gap, -c.gap_rate}, c.factor, 1};
     const FrictionLaw& friction = probe_.system.friction();
     if (!friction.bristle) return w;
@@ -97,7 +97,7 @@ void ContactGuards::check_side(const Guards& now) {
 double ContactGuards::force_growth(const Segment& segment, double t) {
     const double step = kForceDifference * (segment.t1 - segment.t0);
     const double early = std::max(segment.t0, t - step), late = std::min(segment.t1, t + step);
-    return (probe_.contact(segment, late, false).force - probe_.contact(segment, early, false).force) / (late - early);
+    return (probe_.contact(segment, late).force - probe_.contact(segment, early).force) / (late - early);
 }
 
 Event ContactGuards::first_event(const Segment& segment) {

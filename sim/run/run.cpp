@@ -144,7 +144,7 @@ bool Run::reach(const Segment& segment, const Event& event) {
 const Segment& Run::shorten(double start, const Event& event, double& at) {
     const Segment& ended = integrator_->shorten(at);
     if (ended.t1 != at || (event.kind != EventKind::touch && event.kind != EventKind::release)) return ended;
-    const ContactState c = probe_.contact(ended, ended.t1, false);
+    const ContactState c = probe_.contact(ended, ended.t1);
     const double dt = -c.gap / c.gap_rate;
     if (!std::isfinite(dt) || !(std::fabs(dt) < kPredictedShift * (ended.t1 - start))) return ended;
     at += dt;
@@ -194,7 +194,7 @@ void Run::check_lock() {
     if (!state_.phase.touching || state_.phase.held || steps_ % kStepsPerReport != 0) return;
     if (dynamics_.coordinates() > 1 || is_prescribed(problem_.hub.drive) || dynamics_.friction().none()) return;
     System& system = probe_.system;
-    const ContactState c = system.contact(state_.t, state_.y.data(), true);
+    const ContactState c = system.contact(state_.t, state_.y.data());
     const Compliance response = system.compliance(state_.t, state_.y.data(), c);
     if (c.force * response.nn > std::fabs(system.free_gap_acceleration(state_.t, state_.y.data())))
         resolve_impact(response, c.gap_rate, c.slip, system.friction().kinetic, 0, ImpactLaw::newton);

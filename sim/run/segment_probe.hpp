@@ -23,14 +23,11 @@ class SegmentProbe {
         return y_.data();
     }
     const double* state() const { return y_.data(); }
-    // `search`: search the whole beam for the foot, else near the previous foot.
-    ContactState contact(const Segment& segment, double t, bool search) {
-        return system.contact(t, state(segment, t), search);
-    }
+    ContactState contact(const Segment& segment, double t) { return system.contact(t, state(segment, t)); }
     // Only foot, gap and gap rate, in flight.
-    ContactState gap(const Segment& segment, double t, bool search) {
+    ContactState gap(const Segment& segment, double t) {
         segment.value_without_vibration_work(t, y_.data());
-        return gap_.evaluate(t, y_.data(), search);
+        return gap_.evaluate(t, y_.data());
     }
     double frame_angle(const Segment& segment, double t) { return segment.coordinate(t, 0, y_.data()); }
 

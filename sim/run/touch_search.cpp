@@ -36,12 +36,11 @@ double TouchSearch::lower_bound(double t, double h, const double* xi, const doub
 // Samples the gap at the ends of `count` equal subintervals and searches each for minima below zero.
 std::optional<double> TouchSearch::by_pieces(const Segment& segment, double end, int count) {
     const double h = end - segment.t0;
-    const bool everywhere = problem().beam.model == ModelKind::exact;
     const auto probe = [&](double t) {
-        const ContactState c = probe_.contact(segment, t, everywhere);
+        const ContactState c = probe_.contact(segment, t);
         return Guard{t, c.gap, c.gap_rate};
     };
-    const ContactState first = probe_.contact(segment, segment.t0, true);
+    const ContactState first = probe_.contact(segment, segment.t0);
     Guard a{segment.t0, first.gap, first.gap_rate};
     for (int i = 1; i <= count; ++i) {
         const double t = i == count ? end : segment.t0 + h * i / count;
@@ -64,7 +63,7 @@ std::optional<double> TouchSearch::by_pieces(const Segment& segment, double end,
 // At an instant with a negative gap: true if it is an integration error of a gap that opens, because the beam
 // accelerates away from the cam. After a lift the gap grows like t³, at first more slowly than the error.
 bool TouchSearch::opens(const Segment& segment, double t) {
-    const ContactState c = probe_.contact(segment, t, false);
+    const ContactState c = probe_.contact(segment, t);
     const Solver& solver = problem().solver;
     const double step_error = kGapErrors * (solver.rtol * reach() + solver.atol);  // at most, of the gap
     if (c.gap_rate < -problem().contact.approach_floor.value || c.gap < -step_error) return false;
@@ -102,7 +101,7 @@ std::optional<double> TouchSearch::by_advancement(const Segment& segment, const 
     double t = segment.t0;
     if (t != state_.phase_start) t = while_far(segment, bounds, t);
     if (t == segment.t1) return {};
-    ContactState c = probe_.gap(segment, t, true);
+    ContactState c = probe_.gap(segment, t);
     const double far = problem().cam->radius + probe_.system.offset() + std::max(c.gap, 0.0) + h * speed;
     const double most = gap_acceleration_bound(bounds, far);
     if (!std::isfinite(most)) return by_resolving(segment);
@@ -112,7 +111,7 @@ std::optional<double> TouchSearch::by_advancement(const Segment& segment, const 
             // The beam hardly leaves the surface: sample densely at first.
             t = std::min(segment.t1, t + 1 / (probe_.system.highest_frequency() + bounds.theta_dot + 1 / h));
             if (const auto touch = by_pieces(segment, t, 4)) return touch;
-            c = probe_.gap(segment, t, true);
+            c = probe_.gap(segment, t);
         }
         c.gap = std::max(c.gap, 0.0);  // rounding at the release
     }
@@ -154,7 +153,7 @@ std::optional<double> TouchSearch::advance(const Segment& segment, double t, Con
         const double next = while_far(segment, bounds, t + std::max(safe, kShortestAdvanceShare * t));
         if (next >= segment.t1) return {};
         t = next;
-        c = probe_.gap(segment, t, false);
+        c = probe_.gap(segment, t);
     }
     return by_resolving(segment);
 }
@@ -173,7 +172,7 @@ std::optional<double> TouchSearch::falling(const Segment& segment, double t, Con
         double next = t - c.gap / c.gap_rate;
         if (!(next > low && next < high)) next = 0.5 * (low + high);
         next = std::min(next, segment.t1);
-        c = probe_.gap(segment, next, false);
+        c = probe_.gap(segment, next);
         if (next == segment.t1 && c.gap > 0) return {};
         if (next == t || c.gap == 0 || std::fabs(c.gap) < kTouchGap * problem().cam->radius) return next;
         (c.gap > 0 ? low : high) = next;

@@ -30,7 +30,7 @@ class Transitions {
     void cancel_gap_rounding();
     void begin_flight();
     void start_friction();
-    ContactState contact_now() { return system_.contact(state_.t, state_.y.data(), true); }
+    ContactState contact_now() { return system_.contact(state_.t, state_.y.data()); }
     double pull_on_cam() { return -system_.free_gap_acceleration(state_.t, state_.y.data()); }
     double& bristle() { return state_.y[static_cast<std::size_t>(2 * system_.coordinates())]; }
     const Problem& problem() const { return system_.problem(); }

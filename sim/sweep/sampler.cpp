@@ -235,7 +235,7 @@ InitialState carried(const Problem& problem, const InitialState& end) {
     double* y = start.y.data();
     const auto rate = static_cast<std::size_t>(system.coordinates());
     for (int round = 0; round < kCarriedRounds; ++round) {  // Newton's method for the angle
-        const ContactState c = system.contact(0, y, true);
+        const ContactState c = system.contact(0, y);
         if (!start.phase.held && c.gap >= 0) return start;
         const double lever = std::copysign(problem.hub.radius + c.x, cross(unit(y[0]), c.normal));
         y[0] -= c.gap / lever;
