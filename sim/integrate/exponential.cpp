@@ -331,7 +331,8 @@ std::unique_ptr<Integrator> make_exponential(System& system, double rtol, double
     return std::make_unique<Exponential>(system, rtol, atol);
 }
 
-Method method_without_modal_form(const System& system) {
+Method used_method(Method wanted, System& system) {
+    if (wanted != Method::automatic || ModalForm::exists(system)) return wanted;
     return system.damping_ratio() > kStiffContact ? Method::cvode_bdf : Method::rk8;
 }
 

@@ -99,8 +99,9 @@ class Integrator {
 
 // Reads the phase of the system at every `start`. Only for systems with a ModalForm.
 std::unique_ptr<Integrator> make_exponential(System& system, double rtol, double atol);
-// What `auto` means for others: `rk8`, or CVODE's BDF where a mode is damped beyond the critical.
-Method method_without_modal_form(const System& system);
+// The wanted method; but what `auto` means for systems without a ModalForm: `rk8`, or CVODE's BDF where a mode is damped
+// beyond the critical.
+Method used_method(Method wanted, System& system);
 std::unique_ptr<Integrator> make_rk8(Ode& ode, double rtol, double atol);
 // cvode-adams or cvode-bdf.
 std::unique_ptr<Integrator> make_sundials(Method method, Ode& ode, double rtol, double atol);

@@ -66,8 +66,5 @@ inline constexpr double kTighterTolerance = 1e-2;   // of the tolerance: that of
 inline constexpr double kTightestRtol = 1e-13;      // below it rounding errors dominate
 inline constexpr double kMaxComparedSteps = 500e3;  // of an explicit method: some seconds
 inline constexpr double kExplicitRadians = 2;       // of the fastest vibration in one step of such a method
-inline constexpr double kComparedTurns = 6;         // of the cam after the last touch
-inline constexpr double kRepeatedTurns = 2;         // the last of these, which represent the future motion
-inline constexpr double kSettlingTurns = 0.25;      // of the cam after the last touch, for the other method
 
 }  // namespace beamcam::sim

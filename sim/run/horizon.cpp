@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "sim/dynamics/system.hpp"
+#include "sim/integrate/integrator.hpp"
 #include "sim/run/constants.hpp"
 
 namespace beamcam::sim {
@@ -24,12 +25,6 @@ Method other_method(Method method) { return method == Method::rk8 ? Method::cvod
 // The fastest rate that an explicit method must resolve, of vibration or of its decay [1/s].
 double fastest_rate(const System& system) {
     return system.highest_frequency() * std::max(1.0, 2 * system.damping_ratio());
-}
-
-// True if only the cam's rotation changes with time and lasting contact has no internal events.
-bool repeats_in_contact(const Problem& problem) {
-    return problem.cam && is_independent_of_time(problem.hub.drive) &&
-           !std::holds_alternative<StickSlipFriction>(problem.contact.friction);
 }
 
 // True if the angles of row i agree.
@@ -69,50 +64,16 @@ Request horizon_request(const Problem& problem, double end) {
     return request;
 }
 
-double compared_until(const Problem& problem, const Result& plain, double end) {
-    if (!repeats_in_contact(problem) || plain.impacts.empty() || plain.impacts.back().t_end) return end;
-    return std::min(end, plain.impacts.back().t_start + kComparedTurns * cam_period(problem));
-}
-
-Request cut(Request angle, double until) {
-    std::vector<double>& times = angle.tables[0].times;
-    times.erase(std::ranges::upper_bound(times, until), times.end());
-    return angle;
-}
-
-bool agrees_for_good(const Problem& problem, const Request& angle, const Result& plain, const Result& other,
-                     double end) {
-    const std::vector<double>&times = angle.tables[0].times, &ours = plain.tables[0].values[0],
-          &theirs = other.tables[0].values[0];
-    const double until = times.back(), window = kRepeatedTurns * cam_period(problem);
-    const double most = kReproducible / (1 + (end - until) / window) / compared_angle(problem).scale;
-    for (std::size_t i = 0; i < times.size(); ++i)
-        if (times[i] > until - window && !(std::fabs(ours[i] - theirs[i]) <= most)) return false;
-    return true;
-}
-
 Comparison comparison(const Problem& problem, double end) {
     System system(problem);
     Comparison out{at_tolerance(problem), false};
     if (fastest_rate(system) * end > kExplicitRadians * kMaxComparedSteps) return tighter_comparison(problem);
-    out.problem.solver.method = other_method(problem.solver.method);
+    out.problem.solver.method = other_method(used_method(problem.solver.method, system));
     out.problem.solver.max_steps = std::min(problem.solver.max_steps, static_cast<int>(4 * kMaxComparedSteps));
     return out;
 }
 
 Comparison tighter_comparison(const Problem& problem) { return {at_tolerance(problem), true}; }
-
-bool tighter_is_cheap(const Problem& problem) { return problem.solver.method == Method::automatic; }
-
-double other_needed_until(const Problem& problem, const Request& angle, const Result& plain, const Result& tighter) {
-    const std::vector<double>& times = angle.tables[0].times;
-    double until = times.back();
-    if (repeats_in_contact(problem) && !plain.impacts.empty() && !plain.impacts.back().t_end)
-        until = std::min(until, plain.impacts.back().t_start + kSettlingTurns * cam_period(problem));
-    for (std::size_t i = 0; i < times.size() && times[i] <= until; ++i)
-        if (!agree(problem, plain, tighter, i)) return times[i];
-    return until;
-}
 
 void report_reproducibility(const Problem& problem, const Request& angle, const Result& plain, const Result& other,
                             const Comparison& compared, Result& result) {
@@ -152,9 +113,6 @@ void report_reproducibility(const Problem& problem, const Request& angle, const 
     const Solver& solver = compared.problem.solver;
     result.compared_with = fmt::format("{} at rtol {:g}{}", name(solver.method), solver.rtol,
                                        compared.same_method ? " (the same method: others take too many steps)" : "");
-    if (compared.until && *compared.until < times.back())
-        result.compared_with += fmt::format(", from {:.4g} s on with {} at rtol {:g}", *compared.until,
-                                            name(problem.solver.method), solver.rtol);
     result.reproducibility = sentence(result);
 }
 

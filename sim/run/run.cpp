@@ -10,15 +10,9 @@
 #include "sim/base/assert.hpp"
 #include "sim/integrate/constants.hpp"
 #include "sim/integrate/integrator.hpp"
-#include "sim/integrate/modal_form.hpp"
 
 namespace beamcam::sim {
 namespace {
-
-Method method_of(const Solver& solver, System& dynamics) {
-    return solver.method == Method::automatic && !ModalForm::exists(dynamics) ? method_without_modal_form(dynamics)
-                                                                              : solver.method;
-}
 
 std::unique_ptr<Integrator> make_integrator(const Solver& solver, Method method, System& dynamics) {
     double share = solver.method == Method::automatic ? kLocalShare : 1;
@@ -45,7 +39,7 @@ Run::Run(const Problem& problem, std::span<const Request> requests, const Progre
       dynamics_(options.like ? System(*options.like) : System(problem)),
       probe_(dynamics_),
       output_(dynamics_, requests, options.observer, [this] { return statistics(); }),
-      method_(method_of(problem.solver, dynamics_)),
+      method_(used_method(problem.solver.method, dynamics_)),
       integrator_(make_integrator(problem.solver, method_, dynamics_)),
       touch_search_(probe_, state_, [this](double t) { report(t); }),
       contact_guards_(probe_, state_),

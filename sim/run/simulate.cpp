@@ -41,29 +41,7 @@ Result comparison_run(const Problem& problem, const Request& angle, const Progre
     return comparison_run(problem, angle, progress, effort, compared);
 }
 
-// A comparison run at lower cost: if the motion's own method at a tighter tolerance is much cheaper, the other method
-// is used only as long as it can add information.
-Result cheap_comparison_run(const Problem& problem, const Request& angle, const Result& plain, const Progress& progress,
-                            Effort* effort, Comparison& compared) {
-    if (!tighter_is_cheap(problem)) {
-        compared = comparison(problem, angle.tables[0].times.back());
-        return comparison_run(problem, angle, progress, effort, compared);
-    }
-    Comparison tighter = tighter_comparison(problem);
-    Result all = comparison_run(problem, angle, progress, effort, tighter);
-    const double until = other_needed_until(problem, angle, plain, all);
-    compared = comparison(problem, until);
-    if (!compared.same_method) {
-        const Result first = comparison_run(problem, cut(angle, until), progress, effort, compared);
-        if (!compared.same_method) {
-            compared.until = until;
-            std::ranges::copy(first.tables[0].values[0], all.tables[0].values[0].begin());
-        }
-    }
-    return all;
-}
-
-// A horizon needs one or two additional runs.
+// A horizon needs one more run.
 std::vector<Result> integrate_with_horizons(const Problem& problem, std::span<const Request> requests,
                                             const Progress& progress, Effort* effort) {
     double end = -1;
@@ -75,14 +53,9 @@ std::vector<Result> integrate_with_horizons(const Problem& problem, std::span<co
     std::vector<Result> results = integrate(problem, all, progress, effort);
     const Result plain = std::move(results.back());
     results.pop_back();
-    const double settled = compared_until(problem, plain, end);
-    Request angle = cut(all.back(), settled);
-    Comparison compared;
-    Result other = cheap_comparison_run(problem, angle, plain, progress, effort, compared);
-    if (settled < end && !agrees_for_good(problem, angle, plain, other, end)) {
-        angle = all.back();
-        other = cheap_comparison_run(problem, angle, plain, progress, effort, compared);
-    }
+    const Request& angle = all.back();
+    Comparison compared = comparison(problem, end);
+    const Result other = comparison_run(problem, angle, progress, effort, compared);
     for (std::size_t i = 0; i < requests.size(); ++i)
         if (requests[i].horizon) report_reproducibility(problem, angle, plain, other, compared, results[i]);
     return results;

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "tests/sanitizers.hpp"
 #include "tests/sim/support.hpp"
@@ -13,7 +12,6 @@ namespace beamcam::sim::testing {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::MatchesRegex;
 
 Result with_horizon(const Problem& problem, double end) {
     Request request;
@@ -73,75 +71,13 @@ TEST(Horizon, InstantsBeyondTheComparisonAreNotReproducible) {
     EXPECT_EQ(r.not_reproducible.at(0).to, std::nullopt);
 }
 
-// At rest on the turning cam from the start.
-Problem resting(double speed) {
-    Problem p;
-    p.initial.shape = InitialShape::resting;
-    p.cam->speed = speed;
-    return p;
-}
-
-TEST(Horizon, LastingContactIsComparedForSixTurns) {
-    SKIP_UNDER_SANITIZERS();
-    const Problem p = resting(5);
-    Request request;
-    request.horizon = true;
-    const auto simulated = [&](double end, long& steps) {
-        Effort effort;
-        request.end_time = end;
-        Result result = simulate(p, {&request, 1}, {}, &effort).front();
-        steps = effort.spent.steps;
-        return result;
-    };
-    long whole = 0, compared = 0;
-    const Result settled = simulated(40, whole);
-    ASSERT_FALSE(settled.impacts.back().t_end.has_value());
-    EXPECT_TRUE(settled.not_reproducible.empty()) << settled.reproducibility;
-    EXPECT_EQ(settled.reproducible_until, 40);
-    EXPECT_NEAR(compared_until(p, settled, 40), settled.impacts.back().t_start + 12 * std::numbers::pi / 5, 1e-12);
-    simulated(compared_until(p, settled, 40), compared);
-    EXPECT_LT(whole, 2 * compared);
-    // Not if the beam may still leave the cam, or if anything else changes with time.
-    EXPECT_EQ(compared_until(p, settled, 1), 1);  // the end
-    Problem other = p;
-    other.hub.drive = HarmonicTorque{0.1, 3, 0};
-    EXPECT_EQ(compared_until(other, settled, 40), 40);
-    other = p;
-    other.contact.friction = StickSlipFriction{};
-    EXPECT_EQ(compared_until(other, settled, 40), 40);
-    Result left = settled;
-    left.impacts.back().t_end = 30;
-    EXPECT_EQ(compared_until(p, left, 40), 40);
-}
-
-TEST(Horizon, SmallDifferencesThatMayGrowAreFollowedToTheEnd) {
-    const Problem p = resting(5);
-    const double until = 4, end = 104, window = 4 * std::numbers::pi / 5;
-    const Request angle = cut(horizon_request(p, end), until);
-    ASSERT_EQ(angle.tables[0].times.back(), until);
-    const std::vector<double> ours(angle.tables[0].times.size(), 0.5);
-    const auto agrees = [&](double by, std::size_t at) {
-        std::vector<double> theirs = ours;
-        theirs[at] += by;
-        Result a, b;
-        a.tables.push_back({{}, {ours}}), b.tables.push_back({{}, {theirs}});
-        return agrees_for_good(p, angle, a, b, end);
-    };
-    const double most = 1e-6 / (1 + 100 / window);
-    EXPECT_TRUE(agrees(0.99 * most, 3900));
-    EXPECT_FALSE(agrees(1.01 * most, 3900));
-    EXPECT_FALSE(agrees(std::nan(""), 3900));
-    EXPECT_TRUE(agrees(1, 100));  // before those turns
-}
-
 TEST(Horizon, OfThePapersSystemIsATransientThatEnds) {
     SKIP_UNDER_SANITIZERS();
     for (const double speed : {0.0, 1.0}) {
         Problem p;
         p.cam->speed = speed;
         const Result r = with_horizon(p, 10);
-        EXPECT_THAT(r.compared_with, MatchesRegex("rk8 at rtol 1e-10, from 2\\..* s on with auto at rtol 1e-10"))
-            << speed;
+        EXPECT_EQ(r.compared_with, "rk8 at rtol 1e-10") << speed;
         EXPECT_GT(*r.reproducible_until, 1) << speed;
         EXPECT_LT(*r.reproducible_until, 3) << speed;
         ASSERT_FALSE(r.not_reproducible.empty());
@@ -153,36 +89,14 @@ TEST(Horizon, OfThePapersSystemIsATransientThatEnds) {
     }
 }
 
-// Another method runs until the motion differs from a run of its own at a tighter tolerance, or has settled.
-TEST(Horizon, NeedsTheOtherMethodOnlyWhereItMayTellMore) {
-    const Problem p;
-    EXPECT_TRUE(tighter_is_cheap(p));
-    Problem other = p;
-    other.solver.method = Method::rk8;
-    EXPECT_FALSE(tighter_is_cheap(other));
-    const Request angle = horizon_request(p, 20);
-    const std::vector<double> ours(angle.tables[0].times.size(), 0.5);
-    Result plain, tighter;
-    plain.tables.push_back({{}, {ours}}), tighter.tables.push_back({{}, {ours}});
-    EXPECT_EQ(other_needed_until(p, angle, plain, tighter), 20);
-    plain.impacts.emplace_back().t_start = 7;  // and stays
-    EXPECT_NEAR(other_needed_until(p, angle, plain, tighter), 7 + 0.25 * 2 * std::numbers::pi / p.cam->speed, 1e-12);
-    tighter.tables[0].values[0][3000] += 2e-6;
-    EXPECT_EQ(other_needed_until(p, angle, plain, tighter), 3);
-}
-
-TEST(Horizon, OfAMinuteCostsAFewTimesTheMotion) {
+TEST(Horizon, NeedsOneMoreRun) {
     SKIP_UNDER_SANITIZERS();
-    const Problem p;
     Request request;
-    request.end_time = 60;
-    Effort motion, both;
-    simulate(p, {&request, 1}, {}, &motion);
+    request.end_time = 3;
     request.horizon = true;
-    const Result r = simulate(p, {&request, 1}, {}, &both).front();
-    EXPECT_LT(both.spent.rhs_evaluations, 4 * motion.spent.rhs_evaluations) << r.reproducibility;
-    // The motion, the tighter run, the other method; the last two again up to the end if the final part does not agree.
-    EXPECT_LE(both.integrations, 5);
+    Effort effort;
+    simulate(Problem{}, {&request, 1}, {}, &effort);
+    EXPECT_EQ(effort.integrations, 2);
 }
 
 TEST(Horizon, ComparesWithAnotherMethodWhereverOneIsFeasible) {
@@ -196,6 +110,8 @@ TEST(Horizon, ComparesWithAnotherMethodWhereverOneIsFeasible) {
     p.hub.drive = ConstantSpeed{1};
     EXPECT_EQ(comparison(p, 1).problem.solver.method, Method::rk8);
     p.hub.drive = FreeDrive{};
+    p.beam.model = ModelKind::second_order;  // for which `auto` is rk8
+    EXPECT_EQ(comparison(p, 1).problem.solver.method, Method::cvode_adams);
     p.beam.model = ModelKind::first_order;
     EXPECT_FALSE(comparison(p, 1).same_method);
     p.beam.modes = 40;
