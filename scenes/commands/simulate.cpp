@@ -114,7 +114,7 @@ void add_simulate(Grammar& grammar) {
     app.option("--summary", &args.summary, "FILE",
                "Counts, extreme values and energy balance, .json; - is standard output");
     app.flag("--horizon", args.horizon,
-             "Add to the summary the intervals in which the motion is reproducible; this takes further runs, with a "
+             "Add to the summary the intervals in which the motion is reproducible; this takes a second run, with a "
              "tighter tolerance and with another method");
     add_work(app, args.common);
 }

@@ -152,7 +152,7 @@ void SummaryOutput::visit(SceneVisitor& v) {
     v.value("channels", channels_format(channels),
             "Channels whose extrema are listed. By default theta, tip_deflection, contact_force, gap.");
     v.boolean("horizon", horizon,
-              "Adds the intervals in which the motion is reproducible; needs further runs with tighter tolerances and "
+              "Adds the intervals in which the motion is reproducible; needs a second run with tighter tolerances and "
               "another method.");
 }
 

@@ -104,7 +104,7 @@ void visit_picture(SceneVisitor& v, Picture& picture) {
            "The motions that the picture shows at equal times: the mechanics of this or another scene, with changes. "
            "The first one is the main motion.");
     v.boolean(written_if(picture.horizon, "horizon"), picture.horizon,
-              "Curves against time are paler during the intervals in which θ is not reproducible; needs further runs "
+              "Curves against time are paler during the intervals in which θ is not reproducible; needs a second run "
               "with tighter tolerances and another method.");
     v.check([&picture](ObjectReader& r) { check_picture(r, picture); });
 }

@@ -38,7 +38,7 @@ void add_motions(const Plan& plan, std::vector<Line>& lines) {
             {"motion", rigid ? name(beam.model) : fmt::format("{}, {}", name(beam.model), counted(beam.modes, "mode")),
              fmt::format("until {:g} s{}{}", each.request.end_time,
                          each.label.empty() ? "" : fmt::format(", \"{}\"", each.label),
-                         each.request.horizon ? ", compared with further runs" : "")});
+                         each.request.horizon ? ", compared with a second run" : "")});
     }
 }
 

@@ -52,7 +52,7 @@ struct Request {
     bool apexes = false, zero_crossings = false;  // of θ; each searches every ripple of the hub
     bool impact_peaks = true;                     // the largest force and penetration of each impact
     std::vector<double> states;                   // [s]: Result::states at these times
-    bool horizon = false;  // intervals in which θ is reproducible (horizon.hpp); costs further runs
+    bool horizon = false;  // intervals in which θ is reproducible (horizon.hpp); costs a second run
     // The run ends early at the event that completes these counts.
     std::optional<EventCounts> enough = {};
 };

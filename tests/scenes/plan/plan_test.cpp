@@ -175,7 +175,7 @@ TEST(PlanText, EveryOutputAtOnce) {
     EXPECT_EQ(
         text_of(
             R"({"beam": {"model": "exact", "modes": 6}, "outputs": [{"type": "frames", "fps": 30, "from": 0.5}, {"type": "trajectory"}, {"type": "impacts"}, {"type": "summary", "horizon": true}, {"type": "figure", "figure": "series", "file": "s.pdf", "channels": ["theta"], "data": "s.csv"}]})"),
-        R"(motion      exact, 6 modes: until 1.5 s, compared with further runs
+        R"(motion      exact, 6 modes: until 1.5 s, compared with a second run
 frames      scene-####.png: 30 frames
 figure      s.pdf: series
             s.csv
