@@ -217,6 +217,14 @@ void NodalStep::set_scales(const double* a, const double* b) {
     scale_theta = rtol_ * std::max(std::fabs(a[0]), std::fabs(b[0])) + atol_;
 }
 
+// A prescribed rigid hub has no other error than that of its drive's work against gravity.
+double NodalStep::drive_error(double h) const {
+    const ExponentialSegment& s = segment;
+    const double weight = form->gravity * form->S, rate = largest(s.theta_dot);
+    return quadrature_error(weight * cos * s.theta_dot) * h /
+           (rtol_ * (std::fabs(weight) + form->J * rate * rate) + atol_);
+}
+
 double NodalStep::forcing_error(double h, const ContactLoad* load) {
     const ExponentialSegment& s = segment;
     set_scales(start_.data(), next.data());
@@ -227,7 +235,7 @@ double NodalStep::forcing_error(double h, const ContactLoad* load) {
         errors += e * e;
     }
     const double modal = std::sqrt(errors) / scale_modes;
-    if (form->prescribed) return modal;
+    if (form->prescribed) return std::max(modal, drive_error(h));
     const double torque_error = interpolation_error(load ? s.p_dot - load->torque() : s.p_dot) * h / form->J;
     // The contact turns Θ̇ by a polynomial of the degree of its force, whose error is that of the force.
     const double turn = load ? quadrature_error(s.theta_dot) : interpolation_error(s.theta_dot);

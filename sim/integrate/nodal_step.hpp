@@ -73,6 +73,7 @@ struct NodalStep {
     void evaluate_angle();
     void advance_angle(const Lanes& to);
     double set_angle(double h);
+    double drive_error(double h) const;
     double turn_hub(double h, const Lanes& inertia);
     double update_by_arrays(const StepTable& table, const ContactLoad* load);
     double update_by_inertia(const StepTable& table, const ContactLoad* load);

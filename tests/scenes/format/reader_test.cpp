@@ -316,7 +316,7 @@ TEST(Reader, KeysForWhatIsNotModelledSaySo) {
           {R"({"beam": {"tip-mass": 1}})", "a mass at the tip or at a point is not modelled"},
           {R"({"contact": {"roller_radius": 1}})", "a roller or a nose is not modelled"},
           {R"({"beam": {"taper": 0.5}})", "tapered and stepped beams are not modelled"},
-          {R"({"beam": {"width": 0.01}})", "give the cross-section as \"area\" and \"second_moment\""}})
+          {R"({"beam": {"width": 0.01}})", "write \"section\": {\"type\": \"rectangle\""}})
         EXPECT_THAT(messages(read(scene)), ElementsAre(HasSubstr(message)));
     EXPECT_THAT(messages(read(R"({"beam": {"dampng_ratio": 1}})")), ElementsAre(HasSubstr("did you mean")));
 }

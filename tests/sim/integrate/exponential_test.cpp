@@ -369,6 +369,17 @@ TEST(ExponentialFlight, OfExactAgreesWithRungeKuttaAtEveryInstant) {
     expect_those_of_runge_and_kutta(flights_of_exact());
 }
 
+// Nothing but the work of the drive limits the steps of a rigid beam whose angle is given.
+TEST(ExponentialFlight, BalancesTheEnergyOfAFastPrescribedHub) {
+    for (const double speed : {12.0, 40.0, 300.0}) {
+        Problem p = falling_beam(ModelKind::rigid, Basis::automatic, 1);
+        p.hub.drive = SpinUp{speed, 0.2};
+        p.solver.rtol = 1e-8;
+        const Result r = run(p, 5);
+        EXPECT_LT(r.energy_residual_max, p.solver.rtol * r.energy_scale) << speed;
+    }
+}
+
 TEST(ExponentialFlight, SpansManyPeriodsOfVibration) {
     Problem p = falling_beam(ModelKind::first_order, Basis::hub_beam, 20);
     p.solver.rtol = 1e-5;
