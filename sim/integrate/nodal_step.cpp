@@ -217,11 +217,12 @@ void NodalStep::set_scales(const double* a, const double* b) {
     scale_theta = rtol_ * std::max(std::fabs(a[0]), std::fabs(b[0])) + atol_;
 }
 
-// A prescribed rigid hub has no other error than that of its drive's work against gravity.
+// The error of the drive's work against gravity, the only one of a rigid beam whose angle is given. It adds up from step
+// to step, so it is kept to a share of the tolerance, as in contact.
 double NodalStep::drive_error(double h) const {
     const ExponentialSegment& s = segment;
     const double weight = form->gravity * form->S, rate = largest(s.theta_dot);
-    return quadrature_error(weight * cos * s.theta_dot) * h /
+    return kContactShare * quadrature_error(weight * cos * s.theta_dot) * h /
            (rtol_ * (std::fabs(weight) + form->J * rate * rate) + atol_);
 }
 

@@ -380,14 +380,6 @@ TEST(Figure, VectorFilesAreTheSameBytesTwiceAndMeasureInMillimetres) {
     EXPECT_THAT(bytes(Medium::svg), HasSubstr("<title>a &lt; b</title>"));
 }
 
-std::string bytes_of(const Figure& figure, Medium medium, const Document& document) {
-    const Page page = page_of(figure, *column_named("elsevier"));
-    const Fonts fonts(false, Typefaces::print);
-    PageCanvas sheet(medium, {points(page.width), points(page.height), 300}, fonts, document);
-    draw(figure, page, sheet);
-    return sheet.bytes();
-}
-
 // Everything is drawn in the colours of white paper; the sheet turns them.
 TEST(Figure, ADarkSlideHasThePaperAndTheInkOfDarkFilms) {
     const Palette& films = palette(Theme::dark);
