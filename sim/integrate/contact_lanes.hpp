@@ -62,8 +62,6 @@ class ContactExpansion {
     void centre(double x);
     // Expands about the nearest point of a fixed grid: the result does not depend on earlier expansions.
     void centre_near(double x);
-    // The next call of `centre` expands in any case.
-    void forget() { x_ = -1; }
     double at() const { return x_; }
     // Largest distance from the centre at which the expansion is accurate [m].
     double range() const { return range_; }

@@ -97,7 +97,7 @@ InitialState on_cam(InitialState state, System& system) {
     if (!state.phase.held || is_prescribed(system.problem().hub.drive)) return state;
     system.set_phase(state.phase);
     for (int round = 0; round < kOnCamRounds; ++round) {
-        const ContactState c = system.contact(0, state.y.data(), true);
+        const ContactState c = system.contact(0, state.y.data());
         BeamPoint p;
         system.model().point(c.x, p);
         state.y[0] -= c.gap / cross(p.r, c.normal);
