@@ -163,13 +163,22 @@ TEST(Exponents_, SustainedContactForgetsAtOnce) {
     EXPECT_FALSE(e.warnings.empty());
 }
 
-// Sustained contact in the transient annihilates all tangents; the later orbit has its own exponents.
+// Sustained contact annihilates all differences. It occurs once in some hundred turns of this chaotic motion, at turns that
+// rounding chooses: in the transient it is forgotten.
 TEST(Exponents_, RestDuringTheTransientIsForgotten) {
     const PressedBeam b{0.002, 0.85};
-    const Exponents e = lyapunov_exponents(b.on_orbit(52), {0, 100, 100, 10});
-    EXPECT_TRUE(std::isfinite(e.lambda[0]));
-    const double expected = 2 * static_cast<double>(e.impacts) / e.duration * std::log(b.restitution);
-    EXPECT_NEAR(sum(e), expected, 0.01 * std::fabs(expected));
+    constexpr double kTransient = 1500;
+    const Exponents whole = lyapunov_exponents(b.on_orbit(52), {0, 0, kTransient, 10});
+    EXPECT_EQ(whole.lambda[0], -std::numeric_limits<double>::infinity());
+    int finite = 0;
+    for (int window = 0; window < 5; ++window) {
+        const Exponents e = lyapunov_exponents(b.on_orbit(52), {0, kTransient + 50 * window, 50, 10});
+        if (!std::isfinite(e.lambda[0])) continue;
+        ++finite;
+        const double expected = 2 * static_cast<double>(e.impacts) / e.duration * std::log(b.restitution);
+        EXPECT_NEAR(sum(e), expected, 0.01 * std::fabs(expected)) << window;
+    }
+    EXPECT_GE(finite, 3);
 }
 
 // The slowest impacts at the end of chatter cannot be linearized.
