@@ -20,8 +20,7 @@ std::string change_of_pattern(const PeriodicOrbit& orbit, const PeriodicOrbit* b
     if (orbit.always_touching()) return "the beam no longer follows the cam all the time";
     const std::string impacts = counted(orbit.impacts.size(), "impact");
     if (beyond && beyond->always_touching()) return "the beam follows the cam all the time";
-    // One impact that dies out follows a flight that vanishes; where the rest vanishes, many do.
-    if (orbit.chatters() && orbit.impacts.size() <= 1) return "the flight before the rest on the cam vanishes";
+    if (orbit.chatters() && orbit.impacts.empty()) return "the flight before the rest on the cam vanishes";
     if (orbit.chatters()) return "the rest on the cam vanishes";
     if (beyond && beyond->chatters()) return "a rest on the cam appears";
     if (beyond && beyond->impacts.size() != orbit.impacts.size())
