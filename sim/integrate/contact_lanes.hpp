@@ -27,6 +27,15 @@ struct Frame {
 };
 
 constexpr int kExpansionOrder = 6;
+// Numbers with N derivatives have a distance from the centre that is zero but for these: powers beyond N vanish, and
+// the foot needs the second derivative of the deflection.
+template <class T>
+consteval int expansion_order() {
+    if constexpr (requires { T::kDerivatives; })
+        return 2 + T::kDerivatives;
+    else
+        return kExpansionOrder;
+}
 constexpr std::size_t kMostNodes = 2 * kMaxModes + 24;  // of the integrals of `exact`
 
 // The contact at one instant or eight; names as in ContactState.
@@ -38,7 +47,7 @@ struct ContactKinematics {
     T hub;                           // ∂(n·r)/∂Θ
     T hub_t;                         // ∂(t·r)/∂Θ with the moment of the face
     T cam_n, cam_t;                  // n·Ḃ, t·Ḃ + ωR: power of the cam per force
-    T moment[kExpansionOrder];  // ∫₀^dx v′ ξʲ/j! dξ
+    T moment[expansion_order<T>()];  // ∫₀^dx v′ ξʲ/j! dξ
     T v1;                            // slope
     T shift;                         // a α
 };
@@ -62,6 +71,8 @@ class ContactExpansion {
     void centre(double x);
     // Expands about the nearest point of a fixed grid: the result does not depend on earlier expansions.
     void centre_near(double x);
+    // The next call of `centre` expands in any case.
+    void forget() { x_ = -1; }
     double at() const { return x_; }
     // Largest distance from the centre at which the expansion is accurate [m].
     double range() const { return range_; }
@@ -123,7 +134,7 @@ BEAMCAM_INLINE void taylor(const T* c, const T& dx, int count, T& out) {
 // Σ φ⁽ʲ⁺¹⁾ moment_j, so that the rows are the exact derivatives of the expanded gap.
 template <class T>
 BEAMCAM_INLINE void slope_moments(const T* c, const T& dx, T* moment) {
-    constexpr int kOrder = kExpansionOrder;
+    constexpr int kOrder = expansion_order<T>();
     T term[kOrder];  // v⁽ᵐ⁺¹⁾ dxᵐ/m!
     T power = T{} + 1.0;
     for (int m = 0; m < kOrder; ++m) {
@@ -142,7 +153,7 @@ BEAMCAM_INLINE void slope_moments(const T* c, const T& dx, T* moment) {
 template <class T>
 BEAMCAM_INLINE T slope_product(const T* moment, const T* derivatives) {
     T total = derivatives[1] * moment[0];
-    for (int j = 1; j < kExpansionOrder; ++j) total = total + derivatives[1 + j] * moment[j];
+    for (int j = 1; j < expansion_order<T>(); ++j) total = total + derivatives[1 + j] * moment[j];
     return total;
 }
 
@@ -150,7 +161,7 @@ template <class T>
 void ContactExpansion::evaluate(const T* q, const T* v, const Frame<T>& frame, double gap_offset, T* hq,
                                 ContactKinematics<T>& touch, int corrections) const {
     if (exact()) return evaluate_exact(q, v, frame, gap_offset, hq, touch, corrections);
-    constexpr int kDegree = kExpansionOrder;
+    constexpr int kDegree = expansion_order<T>();
     // Deflection, its rate and their derivatives at the centre.
     T c[kDegree + 1], d[kDegree + 1];
     product(kDegree + 1, n_, y_.data(), q, c);
@@ -227,7 +238,7 @@ BEAMCAM_INLINE void ContactExpansion::finish(const Point<T>& at, const T& ex, co
 template <class T>
 BEAMCAM_INLINE void ContactExpansion::rows(const ContactKinematics<T>& touch, const T* hq, std::size_t i, bool friction,
                                            T& jn, T& jt) const {
-    constexpr int kDegree = kExpansionOrder;
+    constexpr int kDegree = expansion_order<T>();
     const double* y = transposed_.data() + i * (kOrder + 1);
     const T& x = touch.dx;
     T phi = T{} + y[kDegree], axial{};

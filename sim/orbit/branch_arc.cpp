@@ -8,10 +8,18 @@
 #include "sim/orbit/constants.hpp"
 
 namespace beamcam::sim {
+namespace {
+
+bool same_events(const FlowMap& a, const FlowMap& b) {
+    return a.touches.size() == b.touches.size() && a.holds == b.holds && a.lifts == b.lifts;
+}
+
+}  // namespace
+
 // The map at a point; nothing where there is no problem or no motion.
 std::optional<SectionMap::Value> BranchArc::image(const Eigen::VectorXd& z) const try {
     const Eigen::Index n = z.size() - 1;
-    return map(z[n]).at(z.head(n));
+    return map(z[n]).at(z.head(n), false);
 } catch (const SolverError&) {
     return std::nullopt;
 } catch (const StepFailure&) {
@@ -22,7 +30,7 @@ std::optional<SectionMap::Value> BranchArc::image(const Eigen::VectorXd& z) cons
 // dP = P_y dy + P_p dp. At folds, and where the tangent is not known yet, with y constant. One-sided where only one
 // side has the same events, or exists.
 Eigen::VectorXd BranchArc::slope(const Eigen::VectorXd& z, const Eigen::VectorXd& tangent,
-                                 const SectionMap::Value& here, const Eigen::MatrixXd& derivative) const {
+                                 const SectionMap::Value& here) const {
     const Eigen::Index n = z.size() - 1;
     Eigen::VectorXd along = Eigen::VectorXd::Unit(n + 1, n);
     if (std::fabs(tangent[n]) > kNearFold) along = tangent / tangent[n];
@@ -33,7 +41,7 @@ Eigen::VectorXd BranchArc::slope(const Eigen::VectorXd& z, const Eigen::VectorXd
     const bool both = before && after && back == forth;
     const Eigen::VectorXd low = both || back ? before->image : here.image,
                           high = both || !back ? after->image : here.image;
-    return (high - low) / (both ? 2 * kArcDifference : kArcDifference) - derivative * along.head(n);
+    return (high - low) / (both ? 2 * kArcDifference : kArcDifference) - here.derivative * along.head(n);
 }
 
 // The ends of the range may be the last values with a problem: rounding must not pass them.
@@ -59,16 +67,14 @@ BranchArc BranchArc::recentred(const BranchPoint& point) const {
 
 Eigen::VectorXd BranchArc::place(const BranchPoint& point) const {
     const double at = share(point.parameter);
-    const Eigen::VectorXd y = map(at).scaled(point.orbit.start);
-    Eigen::VectorXd z(y.size() + 1);
-    z << y, at;
+    Eigen::VectorXd z(scale_.units.size() + 1);
+    z << map(at).scaled(point.orbit.start), at;
     return z;
 }
 
 Eigen::MatrixXd BranchArc::derivative_at(const BranchPoint& point) const {
     const SectionMap here = map(share(point.parameter));
-    const Eigen::VectorXd y = here.scaled(point.orbit.start);
-    return here.derivative(y, here.at(y));
+    return here.at(here.scaled(point.orbit.start), true).derivative;
 }
 
 // Newton's method for P(y, p) = y on the plane through z perpendicular to the tangent.                         (S76)
@@ -79,11 +85,10 @@ std::optional<ArcPoint> BranchArc::correct(Eigen::VectorXd z, const Eigen::Vecto
     for (int i = 0; i < kMaxArcNewton; ++i) {
         const Eigen::VectorXd y = z.head(n);
         const SectionMap section = map(z[n]);
-        const SectionMap::Value value = section.at(y);
-        const Eigen::MatrixXd derivative = section.derivative(y, value);
-        const Eigen::VectorXd by_parameter = slope(z, tangent, value, derivative);
+        const SectionMap::Value value = section.at(y, true);
+        const Eigen::VectorXd by_parameter = slope(z, tangent, value);
         Eigen::MatrixXd bordered(n + 1, n + 1);
-        bordered << derivative - Eigen::MatrixXd::Identity(n, n), by_parameter, tangent.transpose();
+        bordered << value.derivative - Eigen::MatrixXd::Identity(n, n), by_parameter, tangent.transpose();
         Eigen::VectorXd residual(n + 1);
         residual << value.image - y, tangent.dot(z - predicted);
         const double size = residual.norm();
@@ -92,8 +97,8 @@ std::optional<ArcPoint> BranchArc::correct(Eigen::VectorXd z, const Eigen::Vecto
         // An unstable orbit amplifies rounding in the residual, not in z.
         const bool rounding = size > 0.5 * last && (size < kArcAcceptable || step.norm() < kArcConverged);
         if (size < kArcConverged || rounding) {
-            return ArcPoint{z, solve(bordered, Eigen::VectorXd::Unit(n + 1, n)).normalized(), derivative,
-                            section.orbit(y, value, derivative)};
+            return ArcPoint{z, solve(bordered, Eigen::VectorXd::Unit(n + 1, n)).normalized(), value.derivative,
+                            section.orbit(y, value)};
         }
         if (size > 2 * last) return std::nullopt;
         last = size;

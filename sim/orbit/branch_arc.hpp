@@ -47,8 +47,8 @@ class BranchArc {
     SectionMap map(double share) const;
     Progress poll(double parameter) const;
     std::optional<SectionMap::Value> image(const Eigen::VectorXd& z) const;
-    Eigen::VectorXd slope(const Eigen::VectorXd& z, const Eigen::VectorXd& tangent, const SectionMap::Value& here,
-                          const Eigen::MatrixXd& derivative) const;
+    Eigen::VectorXd slope(const Eigen::VectorXd& z, const Eigen::VectorXd& tangent,
+                          const SectionMap::Value& here) const;
 
     Family family_;
     ContinuationRequest request_;

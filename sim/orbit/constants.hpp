@@ -5,17 +5,13 @@
 
 namespace beamcam::sim {
 
-// ---- differences of neighbouring motions ----
-// Their distance, as a share of the motion's size. Central differences err by its square, extrapolated ones by its
-// fourth power; both by the rounding of a motion, about 1e-13, divided by it.
-inline constexpr double kCentralStep = 1e-5, kExtrapolatedStep = 1e-3;
-inline constexpr double kSmallestDifference = 1e-7;  // the distance is reduced to it where neighbours touch differently
-// Change of a difference quotient over half the distance, relative to it; its square is the error that is left.
-inline constexpr double kLargestBend = 3e-6;
-inline constexpr int kOnCamRounds = 12;       // Newton's iterations that move a start in sustained contact onto the cam
-inline constexpr double kFlightShare = 0.02;  // of a flight: largest change of the instants of its touches
-inline constexpr double kPausePlace = 0.3;    // of a flight: largest distance of a pause from its middle
-inline constexpr double kPauseFlight = 1e-4;  // of the longest flight: shorter ones have no pause
+// ---- tangents ----
+inline constexpr int kTangentMemories = 2;         // additional rows: z and δ̇₋
+inline constexpr double kTangentRounding = 1e-14;  // smallest tolerance of a step: rounding
+// Least order of convergence of a step. Step lengths of neighbouring levels differ by √2.
+inline constexpr int kTangentOrder = 8;
+inline constexpr double kSameLength = 1e-13;    // of a step: rounding of the time
+inline constexpr double kSameSpeed = 1e-9;      // relative difference in speed by rounding of the gap at a touch
 inline constexpr double kSlowestMotion = 1e-3;  // [1/s] rate of the hub's unit without cam speed and gravity
 
 // ---- the section map and its fixed points ----
@@ -52,8 +48,8 @@ inline constexpr double kAtTip =
 // Relative uncertainty of the parameter at which an interval of sustained contact vanishes: the impacts before it are
 // too slow to be separated.
 inline constexpr double kRestUncertainty = 3e-5;
-// Largest multiplier: with derivatives that err by 1e-9 of their norm, a branch of 16 turns left its orbit at 3e4.
-inline constexpr double kMostUnstable = 1e4;
+// Largest multiplier: times the rounding of the section map it is the residual that is still acceptable.
+inline constexpr double kMostUnstable = 1e6;
 inline constexpr double kMovedSection = 0.01;  // [rad] smaller changes of the section are ignored
 inline constexpr double kNearSection = 0.1;    // of its flight: an impact so close to the section moves it
 inline constexpr double kAtRangeEnd = 1e-12;   // of the range: rounding
@@ -69,9 +65,11 @@ inline constexpr double kMaxDecay = 5;   // logarithm of the decay of a damped m
 inline constexpr double kUnsettled = 4;  // standard errors between the halves of an average
 // Blocks that do not match the period of a periodic motion may differ by this share of the whole.
 inline constexpr double kUnsettledRounding = 1e-3;
-inline constexpr double kCompliant = 0.02;    // [s] between orthonormalizations with compliant contact
-inline constexpr double kNoRank = 1e-6;       // of a unit difference: a smaller remainder is rounding over the distance
-inline constexpr double kGrazing = 0.01;      // of the root mean square approach speed: slower impacts are near grazing
+inline constexpr double kCompliant = 0.02;  // [s] between orthonormalizations with compliant contact
+inline constexpr double kNoRank = 1e-13;    // of a unit tangent: a smaller remainder is rounding
+inline constexpr double kGrazing = 0.01;    // of the root mean square approach speed: slower impacts are near grazing
+// Tolerance of tangents over rtol: their errors enter an exponent once and are not amplified.
+inline constexpr double kTangentErrors = 100;
 inline constexpr std::size_t kHistory = 400;  // approximate number of points of the convergence history
 // Chaos requires that the later half of a motion multiplies differences by more than e^kLateGrowth. Linear growth does
 // not.                                                                                                          (S89)

@@ -388,8 +388,8 @@ std::vector<Branch> continue_orbit(const Family& family, const BranchPoint& star
     };
     {
         const BranchArc arc(family, request, start.orbit, start.orbit.turns, scale, counting);
-        const Eigen::VectorXd at = arc.place(start);
-        const auto first = arc.correct(at, Eigen::VectorXd::Unit(at.size(), at.size() - 1));
+        const Eigen::Index n = scale.units.size();
+        const auto first = arc.correct(arc.place(start), Eigen::VectorXd::Unit(n + 1, n));
         if (!first) return {};
         run(arc, *first, true, branches.front());
     }

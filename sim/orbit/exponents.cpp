@@ -8,7 +8,8 @@
 #include <numeric>
 
 #include "sim/orbit/constants.hpp"
-#include "sim/orbit/neighbours.hpp"
+#include "sim/orbit/flow_map.hpp"
+#include "sim/run/run.hpp"
 
 namespace beamcam::sim {
 namespace {
@@ -19,7 +20,7 @@ double longest_interval(const Problem& problem) {
     const double own = problem.cam && problem.contact.model == ContactModel::compliant ? kCompliant : 1;
     const double interval = std::min(own, cam_period(problem));
     System system(problem);
-    const Model& model = system.model();
+    const auto& model = dynamic_cast<const ModalModel&>(system.model());
     const std::vector<double> damping = model.damping_matrix();
     const int modes = system.coordinates() - 1;
     double trace = 0;
@@ -42,35 +43,38 @@ Eigen::VectorXd orthonormalize(Eigen::MatrixXd& v, double lost = 0) {
     return lengths;
 }
 
-// Orthonormalizes differences and sums the logarithms of their growth.                                         (S74)
+// Orthonormalizes the tangents and sums the logarithms of their growth.                                       (S74)
 class Stretching {
   public:
-    // `first`: the initial differences.
-    Stretching(Eigen::MatrixXd first, int blocks, double transient, double duration, double interval)
-        : first_(std::move(first)),
-          sum_(Eigen::VectorXd::Zero(first_.cols())),
-          block_start_(sum_),
-          transient_(transient) {
+    // `first`: the initial tangents.
+    Stretching(const Eigen::MatrixXd& first, int blocks, double transient, double duration, double interval)
+        : first_(first), sum_(Eigen::VectorXd::Zero(first.cols())), block_start_(sum_), transient_(transient) {
         const auto pieces = [&](double span) { return std::max(1.0, std::ceil(span / interval)); };
         per_block_ = static_cast<long>(pieces(duration / blocks));
         step_ = duration / static_cast<double>(per_block_ * blocks);
         settling_ = transient > 0 ? static_cast<long>(pieces(transient)) : 0;
-        block_ = Eigen::MatrixXd::Zero(first_.cols(), blocks);
+        block_ = Eigen::MatrixXd::Zero(first.cols(), blocks);
         thinning_ = std::max<long>(1, per_block_ * blocks / static_cast<long>(kHistory));
     }
-    // The instants at which `v` are orthonormalized, one after the other.
-    double next() const { return instant(done_ + 1); }
-    bool complete() const { return done_ == settling_ + per_block_ * block_.cols(); }
+    double first_pause() const { return instant(1); }
 
-    // Orthonormalizes the differences. `rests`: sustained contact may have annihilated some of them.
-    void orthonormalize(Eigen::MatrixXd& v, bool rests) {
-        left_ = sim::orthonormalize(v, rests ? kNoRank : 0);
-        if (done_ >= settling_) sum_.array() += left_.array().log();
+    double at(double t, TangentIntegrator& integrator) {
+        Eigen::MatrixXd v = integrator.tangents(true);
+        const Eigen::VectorXd left = orthonormalize(v, integrator.holds() > 0 ? kNoRank : 0);
+        if (done_ >= settling_) sum_.array() += left.array().log();
+        if (t >= instant(done_ + 1)) {
+            advance();
+            if (done_ == settling_) replace_annihilated(v, left, integrator);
+        }
+        integrator.set_canonical(v);
+        return instant(done_ + 1);
     }
-    // The differences have reached the next instant.
-    void reach(Eigen::MatrixXd& v) {
-        advance();
-        if (done_ == settling_) replace_annihilated(v);
+
+    // The last instant may equal the end up to rounding.
+    void finish(double end, TangentIntegrator& integrator) {
+        if (done_ == settling_ + per_block_ * block_.cols()) return;
+        at(end, integrator);
+        if (done_ < settling_ + per_block_ * block_.cols()) advance();
     }
 
     void results(Exponents& e) const {
@@ -115,15 +119,18 @@ class Stretching {
         block_start_ = sum_;
     }
 
-    // Replaces differences that sustained contact annihilated during the transient.
-    void replace_annihilated(Eigen::MatrixXd& v) const {
-        if (left_.size() == 0 || (left_.array() > 0).all()) return;
+    // Replaces tangents that sustained contact annihilated during the transient.
+    void replace_annihilated(Eigen::MatrixXd& v, const Eigen::VectorXd& left, TangentIntegrator& integrator) const {
+        if ((left.array() > 0).all()) return;
         for (Eigen::Index i = 0; i < v.cols(); ++i)
-            if (left_[i] == 0) v.col(i) = first_.col(i);
-        sim::orthonormalize(v);
+            if (left[i] == 0) v.col(i) = first_.col(i);
+        orthonormalize(v);
+        integrator.set_canonical(v);
+        integrator.keep_on_cam();
+        v = integrator.tangents(true);
+        orthonormalize(v, kNoRank);
     }
 
-    Eigen::VectorXd left_;  // lengths at the last orthonormalization
     Eigen::MatrixXd first_;
     Eigen::VectorXd sum_, block_start_;
     Eigen::MatrixXd block_;
@@ -134,7 +141,7 @@ class Stretching {
 };
 
 // Orthonormal columns in arbitrary directions.
-Eigen::MatrixXd orthonormal_columns(Eigen::Index n, Eigen::Index count) {
+Eigen::MatrixXd first_tangents(Eigen::Index n, Eigen::Index count) {
     Eigen::MatrixXd v(n, count);
     for (Eigen::Index i = 0; i < n; ++i)
         for (Eigen::Index j = 0; j < count; ++j)
@@ -144,19 +151,23 @@ Eigen::MatrixXd orthonormal_columns(Eigen::Index n, Eigen::Index count) {
 }
 
 // With a prescribed hub neighbouring motions have the same hub angle and speed.
-Eigen::MatrixXd first_differences(const Problem& problem, Eigen::Index rows, int count) {
-    const Eigen::Index n = (rows - kMemories) / 2, fixed = is_prescribed(problem.hub.drive) ? 1 : 0, free = n - fixed;
-    const Eigen::Index columns = count == 0 ? 2 * free : std::min<Eigen::Index>(count, 2 * free);
-    const Eigen::MatrixXd first = orthonormal_columns(2 * free, columns);
-    Eigen::MatrixXd v = Eigen::MatrixXd::Zero(rows, columns);
-    v.middleRows(fixed, free) = first.topRows(free);
-    v.middleRows(n + fixed, free) = first.bottomRows(free);
+Eigen::MatrixXd all_tangents(const Problem& problem, int coordinates, int count) {
+    const Eigen::Index n = coordinates;
+    if (!is_prescribed(problem.hub.drive)) {
+        const Eigen::Index most = 2 * n;
+        return first_tangents(most, count == 0 ? most : std::min<Eigen::Index>(count, most));
+    }
+    const Eigen::Index most = 2 * (n - 1), columns = count == 0 ? most : std::min<Eigen::Index>(count, most);
+    const Eigen::MatrixXd free = first_tangents(most, columns);
+    Eigen::MatrixXd v = Eigen::MatrixXd::Zero(2 * n, columns);
+    v.middleRows(1, n - 1) = free.topRows(n - 1);
+    v.bottomRows(n - 1) = free.bottomRows(n - 1);
     return v;
 }
 
-void judge_impacts(const std::vector<MotionTouch>& touches, Exponents& e) {
+void judge_impacts(const std::vector<TangentTouch>& touches, Exponents& e) {
     std::vector<double> approaches;
-    for (const MotionTouch& touch : touches)
+    for (const TangentTouch& touch : touches)
         if (touch.t > e.transient) approaches.push_back(touch.approach);
     if (approaches.empty()) return;
     e.impacts = static_cast<long>(approaches.size());
@@ -203,43 +214,33 @@ const char* Exponents::against_chaos() const {
 }
 
 Exponents lyapunov_exponents(const Problem& problem, const ExponentsRequest& request, const Progress& progress) {
-    require_valid(problem);
+    require_tangents(problem);
     if (!(request.transient >= 0) || !(request.duration > 0) || request.blocks < 2 || request.count < 0)
         throw std::invalid_argument("exponents need transient >= 0, duration > 0, blocks >= 2 and count >= 0");
+    Request span;
+    span.end_time = request.transient + request.duration;
+    TangentIntegrator* tangents = nullptr;
+    std::optional<Stretching> stretching;
+    RunOptions options{.start = request.start ? &*request.start : nullptr};
+    options.around = [&](System& system, std::unique_ptr<Integrator> motion) {
+        const Eigen::MatrixXd v = all_tangents(problem, system.coordinates(), request.count);
+        auto made = std::make_unique<TangentIntegrator>(system, std::move(motion), kTangentErrors * problem.solver.rtol,
+                                                        v, progress);
+        stretching.emplace(made->tangents(), request.blocks, request.transient, request.duration,
+                           longest_interval(problem));
+        tangents = made.get();
+        made->pause_at(stretching->first_pause(), [&](double t) { return stretching->at(t, *tangents); });
+        return made;
+    };
     Exponents e;
     e.transient = request.transient;
     e.duration = request.duration;
-    const Problem tight = with_tight_tolerance(problem);
-    // The largest exponent alone has a statistical error; the sum of all is exact (S73).
-    const Differences kind = request.count == 1 ? Differences::central : Differences::extrapolated;
-    const Eigen::VectorXd units = difference_units(tight);
-    InitialState state = request.start ? *request.start : initial_state(tight);
-    Eigen::MatrixXd v = first_differences(problem, units.size(), request.count);
-    Stretching stretching(v, request.blocks, request.transient, request.duration, longest_interval(problem));
-    std::vector<MotionTouch> touches;
-    double t = 0, size = 0;
-    bool rests = false;
-    const Progress now = [&](double) { return !progress || progress(t); };
-    while (!stretching.complete()) {
-        if (!now(t)) throw Interrupted();  // short runs do not ask
-        const double to = stretching.next();
-        const FlowMap map = flow_map(begun_at(tight, t), state, to - t, now);
-        size = std::max(size, map.touches.empty() && size > 0 ? 0 : motion_size(tight, map, state));
-        rests = rests || map.holds > 0;
-        for (MotionTouch touch : map.touches) {
-            touch.t += t;
-            touches.push_back(touch);
-        }
-        const auto orthonormalize = [&](Eigen::MatrixXd& w) { stretching.orthonormalize(w, rests); };
-        const Neighbours neighbours(tight, (size > 0 ? size : 1) / units.array(), kind, now);
-        v = neighbours.along(t, state, to - t, map, v, orthonormalize);
-        orthonormalize(v);
-        stretching.reach(v);
-        state = map.end;
-        t = to;
-    }
-    stretching.results(e);
-    judge_impacts(touches, e);
+    Run run(problem, {&span, 1}, progress, options);
+    run.integrate();
+    tangents->finish(span.end_time);
+    stretching->finish(span.end_time, *tangents);
+    stretching->results(e);
+    judge_impacts(tangents->touches(), e);
     if (!e.settled)
         e.warnings.push_back(
             "the two halves of the average differ by more than their errors: the motion had not settled; use a longer "

@@ -1,7 +1,7 @@
 // Lyapunov exponents of a motion: average exponential rates at which neighbouring motions diverge. MODEL.md (S74).
 //
-// Neighbouring motions (neighbours.hpp) start again near the motion after each impact and at equal intervals, with
-// orthonormal differences (Benettin et al. 1980). The mean logarithmic growth of these gives the exponents.
+// Tangents are integrated along the motion through every impact (tangent_integrator.hpp) and orthonormalized at equal
+// intervals (Benettin et al. 1980). The mean logarithmic growth of their lengths gives the exponents.
 #pragma once
 
 #include <Eigen/Core>
@@ -29,14 +29,14 @@ struct ExponentsRequest {
 enum class Chaos { shown, doubtful, not_shown };
 
 struct Exponents {
-    std::vector<double> lambda;  // in descending order [1/s]; −∞ where neighbouring motions merge in sustained contact
-    std::vector<double> error;  // standard error, from the spread of the blocks [1/s]
+    std::vector<double> lambda;  // in descending order [1/s]; −∞ where sustained contact annihilates a tangent
+    std::vector<double> error;   // standard error, from the spread of the blocks [1/s]
     // Convergence: the exponents averaged from the transient up to each of these times after it.
     std::vector<double> time;                  // [s]
     std::vector<std::vector<double>> history;  // [exponent][time] [1/s]
     double transient = 0, duration = 0;        // [s]
     long impacts = 0;                          // touches during the average
-    // Impacts so slow that only the nearest neighbours have them (S74).
+    // Impacts so slow that the linearization (S71) holds only for very small differences.
     long near_grazing = 0;
     double slowest_impact = 0;  // approach speed [m/s]; 0 without impacts
     // Amount by which they may make the largest exponent too large (S74) [1/s].
@@ -68,8 +68,11 @@ struct GrazingDoubt {
 };
 GrazingDoubt grazing_doubt(std::span<const double> approaches, double duration);
 
+// Nothing if this problem has a tangent flow, else the reason and the remedy: models beyond first order have none.
+std::optional<std::string> tangent_refusal(const Problem& problem);
+
 // `progress` receives the time from the start of the transient. Throws SolverError, Interrupted; std::invalid_argument
-// for an invalid problem.
+// where `tangent_refusal` has a reason.
 Exponents lyapunov_exponents(const Problem& problem, const ExponentsRequest& request, const Progress& progress = {});
 
 // If `exponents` of this request show chaos, continues the motion for as long again. If neighbouring motions no longer

@@ -1,134 +1,83 @@
 #include "sim/orbit/flow_map.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include <fmt/format.h>
+
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
-#include "sim/orbit/constants.hpp"
-#include "sim/run/constants.hpp"
+#include "sim/orbit/exponents.hpp"
 #include "sim/run/run.hpp"
 
 namespace beamcam::sim {
-namespace {
 
-// Records touches, changes of sustained contact and pauses of a motion.
-class Follower final : public MotionObserver {
-  public:
-    // `probe` evaluates the beam at touches.
-    Follower(System& probe, double duration, const InitialState& start)
-        : system_(probe), end_(duration), phase_(start.phase) {}
-
-    double end() const override { return end_; }
-    bool done() const override { return false; }
-    void resume(double t, const std::vector<double>& y, const Phase& phase) override {
-        if (phase.held && !phase_.held) ++map_.holds;
-        if (phase_.held && !phase.touching) ++map_.lifts;
-        if (phase_.touching && !phase.touching) left(t);
-        phase_ = phase;
-        started_ = true;
-        map_.end = {y, phase};
+std::optional<std::string> tangent_refusal(const Problem& problem) {
+    switch (problem.beam.model) {
+        case ModelKind::rigid:
+        case ModelKind::zeroth_order:
+        case ModelKind::first_order:
+            break;
+        case ModelKind::paper:
+        case ModelKind::second_order:
+        case ModelKind::exact:
+            return fmt::format("the model {} has no tangent flow; use beam.model first-order or rigid",
+                               name(problem.beam.model));
     }
-    void segment(const SegmentInterval& s) override {
-        if (phase_.touching) return;
-        for (const double share : {0.25, 0.5, 0.75, 1.0}) {
-            Pause& at = flight_.emplace_back(std::lerp(s.from, s.to, share), InitialState{map_.end.y, phase_}, 0.0);
-            s.segment->value(at.t, at.state.y.data());
-        }
-    }
-    void touch(double t, const std::vector<double>& y, const ContactState& contact) override {
-        if (!started_ || !(-contact.gap_rate > kRestSpeed)) return;
-        const double flight = t - left_;
-        BeamPoint p;
-        system_.set_state(t, y.data());
-        system_.model().point(contact.x, p);
-        // Beyond an end of the beam the foot is on its straight extension.
-        const double beyond = -dot(p.r1, p.r - system_.cam(t).disc) / dot(p.r1, p.r1);
-        map_.touches.push_back(
-            {t, -contact.gap_rate, flight, contact.x, contact.x + beyond - system_.problem().beam.length});
-        const auto off = [&](const Pause& at) { return std::fabs(at.t - (t - 0.5 * flight)); };
-        const auto middle = std::ranges::min_element(flight_, {}, off);
-        if (middle != flight_.end() && off(*middle) < kPausePlace * flight) {
-            middle->flight = flight;
-            flights_.push_back(*middle);
-        }
-        flight_.clear();
-    }
-    void release(double t, const std::vector<double>&, const ContactState&) override { left(t); }
-
-    FlowMap take(const RunState& end) {
-        map_.end = {end.y, end.phase};
-        double longest = 0;
-        for (const Pause& pause : flights_) longest = std::max(longest, pause.flight);
-        for (Pause& pause : flights_)
-            if (pause.flight > kPauseFlight * longest && pause.t > map_.touches.front().t)
-                map_.pauses.push_back(std::move(pause));
-        return std::move(map_);
-    }
-
-  private:
-    void left(double t) {
-        left_ = t;
-        flight_.clear();
-    }
-
-    System& system_;
-    double end_;
-    Phase phase_;
-    double left_ = 0;  // instant of the last release [s]
-    bool started_ = false;
-    FlowMap map_;
-    std::vector<Pause> flight_;   // places in the present flight
-    std::vector<Pause> flights_;  // their middles
-};
-
-// A run that starts in contact continues it.
-InitialState continuing(InitialState state, const System& system) {
-    if (state.phase.touching && !state.continued)
-        state.continued = InitialContact{.approach_speed = state.phase.approach,
-                                         .friction = state.phase.friction,
-                                         .bristle = system.bristle(state.y.data()),
-                                         .gap_offset = state.phase.gap_offset};
-    return state;
+    return std::nullopt;
 }
 
-// Moves a start in sustained contact onto the cam: its hub by the gap, its rates by an impulse. (S72)
-InitialState on_cam(InitialState state, System& system) {
-    if (!state.phase.held || is_prescribed(system.problem().hub.drive)) return state;
-    system.set_phase(state.phase);
-    for (int round = 0; round < kOnCamRounds; ++round) {
-        const ContactState c = system.contact(0, state.y.data());
-        BeamPoint p;
-        system.model().point(c.x, p);
-        state.y[0] -= c.gap / cross(p.r, c.normal);
-    }
-    system.hold(0, 0, state.y.data());
-    return state;
-}
-
-}  // namespace
-
-bool same_events(const FlowMap& a, const FlowMap& b) {
-    return a.touches.size() == b.touches.size() && a.holds == b.holds && a.lifts == b.lifts &&
-           a.end.phase.touching == b.end.phase.touching;
-}
-
-FlowMap flow_map(System& system, const InitialState& start, double duration, const Progress& progress) {
-    const InitialState from = continuing(on_cam(start, system), system);
-    system.set_phase({});
-    Follower follower(system, duration, from);
-    Run run(system.problem(), {}, progress, {.observer = &follower, .start = &from, .like = &system});
-    run.integrate();
-    return follower.take(run.state());
-}
-
-FlowMap flow_map(const Problem& problem, const InitialState& start, double duration, const Progress& progress) {
-    System system(problem);
-    return flow_map(system, start, duration, progress);
+void require_tangents(const Problem& problem) {
+    require_valid(problem);
+    if (const auto refusal = tangent_refusal(problem)) throw std::invalid_argument(*refusal);
 }
 
 InitialState motion_end(const Problem& problem, const InitialState& start, double duration, const Progress& progress) {
-    return flow_map(problem, start, duration, progress).end;
+    Request request;
+    request.end_time = duration;
+    Run run(problem, {&request, 1}, progress, {.start = &start});
+    run.integrate();
+    return {run.state().y, run.state().phase, false};
+}
+
+FlowMap flow_map(const Problem& problem, const InitialState& start, double duration, bool derivative,
+                 const Progress& progress, StartOnCam on_cam) {
+    Request request;
+    request.end_time = duration;
+    TangentIntegrator* tangents = nullptr;
+    RunOptions options{.start = &start};
+    options.around = [&](System& system, std::unique_ptr<Integrator> motion) {
+        const Eigen::Index n = 2 * system.coordinates();
+        auto made = std::make_unique<TangentIntegrator>(system, std::move(motion), problem.solver.rtol,
+                                                        Eigen::MatrixXd::Identity(n, derivative ? n : 0), progress);
+        made->end_at(duration);
+        if (on_cam == StartOnCam::kept) made->start_on_cam();
+        tangents = made.get();
+        return made;
+    };
+    FlowMap map;
+    const auto factor = [&](double) {
+        if (tangents->holds() == 0) map.factors.push_back(tangents->factor());
+        return std::numeric_limits<double>::infinity();
+    };
+    Run run(problem, {&request, 1}, progress, options);
+    if (derivative) tangents->pause_at(std::numeric_limits<double>::infinity(), factor);
+    run.integrate();
+    tangents->finish(duration);
+    map.end.y = run.state().y;
+    map.end.phase = run.state().phase;
+    map.touches = tangents->touches();
+    map.inertia_share = tangents->inertia_share();
+    map.holds = tangents->holds();
+    map.lifts = tangents->lifts();
+    map.units = tangents->units().head(2 * (tangents->units().size() / 2 - 1));
+    if (derivative) {
+        const Eigen::Index n = tangents->tangents().cols();
+        map.factors.push_back(tangents->tangents().topRows(n));
+        Eigen::MatrixXd product = map.factors.back();
+        for (std::size_t k = map.factors.size() - 1; k-- > 0;) product *= map.factors[k];
+        map.derivative = map.units.cwiseInverse().asDiagonal() * product * map.units.asDiagonal();
+    }
+    return map;
 }
 
 }  // namespace beamcam::sim

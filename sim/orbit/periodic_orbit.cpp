@@ -7,6 +7,7 @@
 #include "sim/base/linear_algebra.hpp"
 #include "sim/base/numerics.hpp"
 #include "sim/orbit/constants.hpp"
+#include "sim/orbit/exponents.hpp"
 #include "sim/orbit/section_map.hpp"
 
 namespace beamcam::sim {
@@ -26,15 +27,15 @@ struct Place {
 // The middle of the longest flight within the duration; `from` itself if there is no flight.
 Place longest_flight(const Problem& problem, const Place& from, double duration, const Progress& progress) {
     const Problem here = at_section(problem, from.section);
-    const FlowMap seen = flow_map(here, from.state, duration, progress);
+    const FlowMap seen = flow_map(here, from.state, duration, false, progress);
     double longest = 0, middle = 0;
-    for (const MotionTouch& touch : seen.touches)
+    for (const TangentTouch& touch : seen.touches)
         if (touch.flight > longest) {
             longest = touch.flight;
             middle = touch.t - 0.5 * touch.flight;
         }
     if (middle == 0) return from;
-    const FlowMap there = flow_map(here, from.state, middle, progress);
+    const FlowMap there = flow_map(here, from.state, middle, false, progress);
     return {section_after(problem, from.section, middle), there.end};
 }
 
@@ -43,14 +44,13 @@ std::optional<PeriodicOrbit> newton(const SectionMap& map, Eigen::VectorXd y) {
     const Eigen::Index n = y.size();
     double last = std::numeric_limits<double>::infinity();
     for (int i = 0; i < kMaxOrbitNewton; ++i) {
-        const SectionMap::Value value = map.at(y);
+        const SectionMap::Value value = map.at(y, true);
         const Eigen::VectorXd residual = value.image - y;
         const double size = residual.norm();
         if (!std::isfinite(size) || size > kOrbitLost) return std::nullopt;
-        if (size < kOrbitConverged || (size < kOrbitAcceptable && size > 0.5 * last))
-            return map.orbit(y, value, map.derivative(y, value));
+        if (size < kOrbitConverged || (size < kOrbitAcceptable && size > 0.5 * last)) return map.orbit(y, value);
         last = size;
-        Eigen::VectorXd step = solve(map.derivative(y, value) - Eigen::MatrixXd::Identity(n, n), -residual);
+        Eigen::VectorXd step = solve(value.derivative - Eigen::MatrixXd::Identity(n, n), -residual);
         if (step.norm() > kLongestStep) step *= kLongestStep / step.norm();
         y += step;
     }
@@ -76,17 +76,17 @@ bool repeats_itself(const PeriodicOrbit& orbit) {
 std::optional<PeriodicOrbit> orbit_through(const Problem& problem, const Place& place, const OrbitRequest& request,
                                            const Progress& progress) {
     const Problem here = at_section(problem, place.section);
-    FlowMap map = flow_map(here, place.state, cam_period(problem), progress);
-    const Eigen::VectorXd units = difference_units(problem);
-    const auto n = units.size() - kMemories;
+    FlowMap map = flow_map(here, place.state, cam_period(problem), false, progress);
+    const Eigen::VectorXd units = map.units;
+    const auto n = units.size();
     const auto y_of = [&](const InitialState& s) {
-        return Eigen::VectorXd(units.head(n).cwiseProduct(Eigen::Map<const Eigen::VectorXd>(s.y.data(), n)));
+        return Eigen::VectorXd(units.cwiseProduct(Eigen::Map<const Eigen::VectorXd>(s.y.data(), n)));
     };
     const Eigen::VectorXd start = y_of(place.state);
-    const double size = motion_size(problem, map, place.state);
+    const double size = size_of(problem, map, start);
     const int first = request.turns > 0 ? request.turns : 1, last = request.turns > 0 ? first : request.most_turns;
     for (int turns = 1; turns <= last; ++turns) {
-        if (turns > 1) map = flow_map(here, map.end, cam_period(problem), progress);
+        if (turns > 1) map = flow_map(here, map.end, cam_period(problem), false, progress);
         if (turns < first || (request.turns == 0 && (y_of(map.end) - start).norm() > kReturn * size)) continue;
         const SectionMap section(problem, place.section, turns, place.state, {units, size}, progress);
         if (auto orbit = newton_quietly(section, start / size); orbit && !repeats_itself(*orbit)) return orbit;
@@ -116,7 +116,7 @@ std::optional<Place> thrown(const Problem& problem, double section, double perio
     const double arm = contact().gap_rate - still;
     if (!(pull > 0) || !(arm > 0)) return std::nullopt;
     state.y[n] = 0.5 * pull * period / arm;
-    const FlowMap risen = flow_map(at.problem(), state, kRise * period, progress);
+    const FlowMap risen = flow_map(at.problem(), state, kRise * period, false, progress);
     if (!risen.touches.empty() || risen.end.phase.touching) return std::nullopt;
     return Place{section_after(problem, section, kRise * period), risen.end};
 }
@@ -176,6 +176,7 @@ bool same_orbit(const PeriodicOrbit& a, const PeriodicOrbit& b) {
 }
 
 std::optional<std::string> orbit_refusal(const Problem& problem) {
+    if (auto refusal = tangent_refusal(problem)) return refusal;
     if (!problem.cam || problem.cam->speed == 0) return "periodic orbits need a cam that turns: set cam.speed";
     if (!is_independent_of_time(problem.hub.drive))
         return "periodic orbits need a hub.drive that does not depend on time: free, or a constant torque";
@@ -183,7 +184,7 @@ std::optional<std::string> orbit_refusal(const Problem& problem) {
 }
 
 std::vector<PeriodicOrbit> find_orbits(const Problem& given, const OrbitRequest& request, const Progress& progress) {
-    require_valid(given);
+    require_tangents(given);
     if (const auto refusal = orbit_refusal(given)) throw std::invalid_argument(*refusal);
     const Problem problem = for_orbits(given);
     const double turn = cam_period(problem);

@@ -1,4 +1,5 @@
-// Periodic orbits of a system whose cam rotates at constant speed: Newton's method on the section map. MODEL.md (S75).
+// Periodic orbits of a system whose cam rotates at constant speed: Newton's method on the section map, with the exact
+// derivative. MODEL.md (S75).
 #pragma once
 
 #include <complex>

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "sim/base/linear_algebra.hpp"
 #include "sim/orbit/constants.hpp"
+#include "sim/orbit/multipliers.hpp"
 
 namespace beamcam::sim {
 
@@ -14,16 +14,24 @@ Problem at_section(Problem problem, double section) {
     return problem;
 }
 
+double size_of(const Problem& problem, const FlowMap& map, const Eigen::VectorXd& y) {
+    double fastest = 0;
+    for (const TangentTouch& touch : map.touches) fastest = std::max(fastest, touch.approach);
+    return fastest > 0 ? fastest * std::sqrt(problem.beam.line_density() * problem.beam.length) : y.norm();
+}
+
 Problem for_orbits(Problem problem) {
-    problem = with_tight_tolerance(std::move(problem));
     problem.solver.method = Method::automatic;
+    problem.solver.rtol = std::min(problem.solver.rtol, kTightRtol);
+    problem.solver.atol = std::min(problem.solver.atol, kTightAtol);
     problem.solver.max_steps = std::min(problem.solver.max_steps, kMaxMapSteps);
     return problem;
 }
 
 SectionScale section_scale(const Problem& problem, const PeriodicOrbit& orbit, const Progress& progress) {
-    const FlowMap map = flow_map(at_section(problem, orbit.section), orbit.start, orbit.period, progress);
-    return {difference_units(problem), motion_size(problem, map, orbit.start)};
+    const FlowMap map = flow_map(at_section(problem, orbit.section), orbit.start, orbit.period, false, progress);
+    const Eigen::Map<const Eigen::VectorXd> state(orbit.start.y.data(), map.units.size());
+    return {map.units, size_of(problem, map, map.units.cwiseProduct(state))};
 }
 
 SectionMap::SectionMap(const Problem& problem, double section, int turns, InitialState like, const SectionScale& scale,
@@ -32,38 +40,33 @@ SectionMap::SectionMap(const Problem& problem, double section, int turns, Initia
       section_(section),
       cam_phase_(section_phase(problem, section)),
       period_(turns * cam_period(problem)),
+      size_(scale.size),
       turns_(turns),
       like_(std::move(like)),
-      n_(scale.units.size() - kMemories + (like_.phase.touching && System(problem).has_bristle() ? 1 : 0)),
-      scale_(scale.size / scale.units.array()),
+      units_(scale.units),
       progress_(std::move(progress)) {
-    std::fill(like_.y.begin() + n_, like_.y.end(), 0.0);
+    std::fill(like_.y.begin() + units_.size(), like_.y.end(), 0.0);
 }
 
 Eigen::VectorXd SectionMap::scaled(const InitialState& state) const {
-    return Eigen::Map<const Eigen::VectorXd>(state.y.data(), n_).cwiseQuotient(scale_.head(n_));
+    return units_.cwiseProduct(Eigen::Map<const Eigen::VectorXd>(state.y.data(), units_.size())) / size_;
 }
 
 InitialState SectionMap::state(const Eigen::VectorXd& y) const {
     InitialState state = like_;
-    Eigen::Map<Eigen::VectorXd>(state.y.data(), n_) = y.cwiseProduct(scale_.head(n_));
+    Eigen::Map<Eigen::VectorXd>(state.y.data(), units_.size()) = size_ * y.cwiseQuotient(units_);
     return state;
 }
 
-SectionMap::Value SectionMap::at(const Eigen::VectorXd& y) const {
+SectionMap::Value SectionMap::at(const Eigen::VectorXd& y, bool derivative) const {
     Value value;
-    value.map = flow_map(problem_, state(y), period_, progress_);
+    value.map = flow_map(problem_, state(y), period_, derivative, progress_);
     value.image = scaled(value.map.end);
+    if (derivative) value.derivative = units_.asDiagonal() * value.map.derivative * units_.cwiseInverse().asDiagonal();
     return value;
 }
 
-Eigen::MatrixXd SectionMap::derivative(const Eigen::VectorXd& y, const Value& value) const {
-    const Neighbours neighbours(problem_, scale_, Differences::extrapolated, progress_);
-    const Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(scale_.size(), n_);
-    return neighbours.along(0, state(y), period_, value.map, basis).topRows(n_);
-}
-
-PeriodicOrbit SectionMap::orbit(const Eigen::VectorXd& y, const Value& value, const Eigen::MatrixXd& derivative) const {
+PeriodicOrbit SectionMap::orbit(const Eigen::VectorXd& y, const Value& value) const {
     PeriodicOrbit orbit;
     orbit.section = section_;
     orbit.start = state(y);
@@ -74,12 +77,15 @@ PeriodicOrbit SectionMap::orbit(const Eigen::VectorXd& y, const Value& value, co
     orbit.holds = value.map.holds;
     orbit.lifts = value.map.lifts;
     orbit.residual = (value.image - y).norm();
-    for (const MotionTouch& touch : value.map.touches)
+    for (const TangentTouch& touch : value.map.touches)
         orbit.impacts.push_back({section_ - problem_.cam->speed * touch.t, touch.approach, touch.x, touch.overhang});
-    const Eigen::VectorXcd multipliers = eigenvalues(derivative);
-    orbit.multipliers.assign(multipliers.begin(), multipliers.end());
-    std::ranges::stable_sort(orbit.multipliers, {},
-                             [](const std::complex<double>& m) { return std::tuple(-std::abs(m), -m.imag()); });
+    if (like_.phase.held)  // only neighbouring states on the cam
+        orbit.multipliers =
+            multipliers({flow_map(problem_, orbit.start, period_, true, progress_, StartOnCam::kept).derivative});
+    else if (orbit.chatters())
+        orbit.multipliers = multipliers({value.derivative});
+    else
+        orbit.multipliers = multipliers(value.map.factors);
     return orbit;
 }
 

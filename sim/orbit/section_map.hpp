@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "sim/orbit/neighbours.hpp"
+#include "sim/orbit/flow_map.hpp"
 #include "sim/orbit/periodic_orbit.hpp"
 
 namespace beamcam::sim {
@@ -14,8 +14,7 @@ struct SectionScale {
     double size = 1;
 };
 
-// States y are scaled: multiplied by `units` and divided by `size`. In contact the bristle is part of them. Functions
-// throw SolverError, Interrupted.
+// States are scaled: multiplied by `units` and divided by `size`. Functions throw SolverError, Interrupted.
 class SectionMap {
   public:
     // `like` supplies the phase and the remaining state variables. `progress` may interrupt each evaluation.
@@ -23,23 +22,22 @@ class SectionMap {
                Progress progress);
     struct Value {
         Eigen::VectorXd image;
+        Eigen::MatrixXd derivative;  // empty if not requested
         FlowMap map;
     };
-    Value at(const Eigen::VectorXd& y) const;
-    Eigen::MatrixXd derivative(const Eigen::VectorXd& y, const Value& value) const;  // `value` is that at y
+    Value at(const Eigen::VectorXd& y, bool derivative) const;
 
     Eigen::VectorXd scaled(const InitialState& state) const;
-    PeriodicOrbit orbit(const Eigen::VectorXd& y, const Value& value, const Eigen::MatrixXd& derivative) const;
+    PeriodicOrbit orbit(const Eigen::VectorXd& y, const Value& value) const;
 
   private:
     InitialState state(const Eigen::VectorXd& y) const;  // whose `scaled` is y
 
     Problem problem_;
-    double section_, cam_phase_, period_;
+    double section_, cam_phase_, period_, size_;
     int turns_;
     InitialState like_;
-    Eigen::Index n_;         // of the numbers of a state
-    Eigen::VectorXd scale_;  // by which differences are divided
+    Eigen::VectorXd units_;
     Progress progress_;
 };
 
@@ -50,5 +48,7 @@ Problem for_orbits(Problem problem);
 
 // The problem with its cam at this angle at t = 0.
 Problem at_section(Problem problem, double section);
+// The size of an orbit: the speed of its fastest impact in units or, without impacts, the norm of the state y in units.
+double size_of(const Problem& problem, const FlowMap& map, const Eigen::VectorXd& y);
 
 }  // namespace beamcam::sim

@@ -18,7 +18,8 @@ namespace beamcam::sim {
 struct RunOptions {
     MotionObserver* observer = nullptr;   // follows the motion and may end the run
     const InitialState* start = nullptr;  // initial state; null: that of the problem
-    const System* like = nullptr;         // a system of the problem, whose tables are shared
+    // Wraps the integrator of the problem's solver into another one.
+    std::function<std::unique_ptr<Integrator>(System&, std::unique_ptr<Integrator>)> around = {};
 };
 
 class Run {

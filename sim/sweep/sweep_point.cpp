@@ -14,9 +14,9 @@
 namespace beamcam::sim {
 namespace {
 
-// Continues the motion for the duration of its samples, with neighbours, and classifies it by its largest exponent.
+// Continues the motion for the duration of its samples, with tangents, and classifies it by its largest exponent.
 // Samples cover whole turns, so the cam has its initial phase again.
-Attractor by_exponent(const Problem& problem, const Sampling& sampling, const SweepPoint& point,
+Attractor by_tangents(const Problem& problem, const Sampling& sampling, const SweepPoint& point,
                       const Progress& progress) {
     const SampleSpan span = sample_span(problem, sampling);
     ExponentsRequest request;
@@ -24,7 +24,7 @@ Attractor by_exponent(const Problem& problem, const Sampling& sampling, const Sw
     request.start = carried(problem, point.motion.end);
     try {
         const Exponents found = lyapunov_exponents(problem, request, progress);
-        if (found.lambda.empty()) return point.attractor;  // a rigid beam on a prescribed hub has no neighbours
+        if (found.lambda.empty()) return point.attractor;  // a rigid beam on a prescribed hub has no tangents
         const double late = found.settled ? found.lambda.front() * found.duration / 2 : kNan;
         return with_exponent(problem, point.attractor, {found.lambda.front(), found.error.front(), late, found.doubt});
     } catch (const SolverError&) {
@@ -119,8 +119,8 @@ SweepPoint point_by_run(const Problem& problem, const Sampling& sampling, const 
     point.motion = sample_by_run(problem, sampling, moved ? &*moved : nullptr, progress);
     point.attractor = classify(problem, point.motion);
     if (sampling.kind == SampleKind::peaks) return point;  // no exponents, which cost more than the motion
-    if (point.attractor.kind == AttractorClass::aperiodic)
-        point.attractor = by_exponent(problem, sampling, point, progress);
+    if (point.attractor.kind == AttractorClass::aperiodic && !tangent_refusal(problem))
+        point.attractor = by_tangents(problem, sampling, point, progress);
     if (point.attractor.kind != AttractorClass::chaotic) return point;
     const InitialState end = carried(problem, point.motion.end);
     const Sampling as_long_again = later(problem, sampling);

@@ -8,7 +8,7 @@ import re
 import sys
 
 # Constants that determine the layout of memory.
-FIXED = {"kMaxPieces"}
+FIXED = {"kTangentMemories", "kMaxPieces"}
 
 source, out = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
 rows = []

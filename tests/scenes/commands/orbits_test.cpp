@@ -240,7 +240,7 @@ TEST(OrbitsCommand, FollowsAMotionThatRestsOnTheCamBesideOneThatDoesNot) {
     EXPECT_NEAR(doubled, 50.86885, 1e-4);
 }
 
-// Its multipliers grow beyond 10⁴; before, each step was shorter than the one before it.
+// Its multipliers grow beyond 10⁶; before, each step was shorter than the one before it.
 TEST(OrbitsCommand, AVeryUnstableBranchIsFollowedInLongStepsAndSaysWhyItEnds) {
     const Folder folder;
     const Finished done =
@@ -383,6 +383,7 @@ TEST(OrbitsCommand, ReportsWhatItCannotDo) {
                 HasSubstr("whole numbers"));
     EXPECT_THAT(shell(folder, "$BEAMCAM orbits s.json --over cam.speed=1e-9:1e9").err, HasSubstr("narrow it"));
     EXPECT_THAT(shell(folder, "$BEAMCAM orbits s.json --set cam.speed=0").err, HasSubstr("cam.speed"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM lyapunov s.json --set beam.model=exact").err, HasSubstr("first-order"));
     for (const char* command :
          {"lyapunov s.json -o nowhere/l.svg", "orbits s.json -o nowhere/o.csv"})  // before any work
         EXPECT_EQ(shell(folder, std::string("$BEAMCAM ") + command + " --set cam.speed=0").code, 6);

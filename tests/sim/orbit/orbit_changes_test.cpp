@@ -261,23 +261,6 @@ std::optional<PeriodicOrbit> no_saddle(const Problem& problem) {
     return std::nullopt;
 }
 
-// Without damping the product of all multipliers is r², for a beam of large deflections, too.            (S73)
-TEST(OrbitChanges, AnOrbitOfTheExactModelHasTheDeterminantOfItsImpact) {
-    SKIP_UNDER_SANITIZERS();
-    Problem p = BendingBeam()(1);
-    p.beam.model = ModelKind::exact;
-    OrbitRequest search;
-    search.transient = 0;
-    search.impacts = search.turns = 1;
-    const auto found = find_orbits(p, search);
-    ASSERT_FALSE(found.empty());
-    EXPECT_LT(found.front().residual, 1e-8);
-    ASSERT_EQ(found.front().multipliers.size(), 4u);
-    std::complex<double> product = 1;
-    for (const auto& each : found.front().multipliers) product *= each;
-    EXPECT_NEAR(product.real(), p.contact.restitution * p.contact.restitution, 1e-6);
-}
-
 TEST(OrbitChanges, ANeimarkSackerPointPartsConvergingFromDivergingMotions) {
     SKIP_UNDER_SANITIZERS();
     const BendingBeam family;

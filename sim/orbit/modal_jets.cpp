@@ -1,0 +1,213 @@
+#include "sim/orbit/modal_jets.hpp"
+
+#include "sim/contact/impulse.hpp"
+
+namespace beamcam::sim {
+
+JetState::JetState(const System& system, double time, const double* y, const Phase& phase)
+    : t(time),
+      xi(y, y + system.coordinates()),
+      rate(y + system.coordinates(), y + 2 * system.coordinates()),
+      bristle(system.has_bristle() ? y[2 * system.coordinates()] : 0),
+      approach(phase.approach) {}
+
+ModalJets::ModalJets(System& system)
+    : problem_(system.problem()),
+      model_(dynamic_cast<const ModalModel&>(system.model())),
+      drive_(system.drive()),
+      law_(system.normal_law()),
+      friction_(system.friction()),
+      n_(system.coordinates()),
+      modes_(n_ - 1),
+      baumgarte_rate_(system.baumgarte_rate()),
+      force_(static_cast<std::size_t>(n_)),
+      jn_(force_),
+      jt_(force_),
+      hq_(force_) {
+    if (system.has_cam()) expansion_.emplace(system);
+    if (const std::vector<double> c = model_.damping_matrix(); !c.empty())
+        damping_ = Eigen::Map<const Eigen::MatrixXd>(c.data(), modes_, modes_);
+}
+
+// Forces and inertia of hub and beam (S14).
+void ModalJets::assemble(const JetState& s) {
+    const double g = problem_.gravity;
+    const bool shortened = model_.foreshortening();
+    const ModalMatrices& m = model_.matrices();
+    const Jet sine = sin(s.xi[0]), cosine = cos(s.xi[0]), square = s.rate[0] * s.rate[0];
+    const Jet *q = s.xi.data() + 1, *dq = s.rate.data() + 1;
+    Jet* f = force_.data();
+    Jet coriolis, qbq, wq, qgq;
+    for (int i = 0; i < modes_; ++i) {
+        Jet bq, gq, damping;
+        for (int j = 0; j < modes_; ++j) {
+            bq += model_.inertia_matrix()(i, j) * q[j];
+            if (shortened) gq += m.G(i, j) * q[j];
+            if (damping_.size() > 0) damping += damping_(i, j) * dq[j];
+        }
+        coriolis += bq * dq[i];
+        qbq += bq * q[i];
+        wq += m.W[i] * q[i];
+        qgq += gq * q[i];
+        f[1 + i] = square * bq + g * (sine * gq) - m.K[i] * q[i] - (g * m.W[i]) * cosine - damping;
+    }
+    inertia_ = m.J + qbq;
+    f[0] = -2 * (s.rate[0] * coriolis) - g * (m.S * cosine - wq * sine - 0.5 * (cosine * qgq));
+    if (!drive_.has_torque()) return;
+    const double torque = drive_.torque(s.t.v);
+    for (int i = 0; i < n_; ++i) f[i] += torque * model_.hub_row()[i];
+}
+
+// f ← M⁻¹f; a prescribed hub has its own acceleration if `driven`, else none.
+void ModalJets::solve(const JetState& s, std::vector<Jet>& forces, bool driven) const {
+    const double mass = model_.mass();
+    const Eigen::VectorXd& U = model_.matrices().U;
+    Jet* f = forces.data();
+    if (drive_.prescribed()) {
+        f[0] = driven ? drive_.motion(s.t.v).acceleration : 0;
+    } else if (model_.coupled()) {
+        for (int i = 0; i < modes_; ++i) f[0] -= (U[i] / mass) * f[1 + i];
+        f[0] = f[0] / (inertia_ - U.squaredNorm() / mass);
+    } else {
+        f[0] = f[0] / inertia_;
+    }
+    for (int i = 0; i < modes_; ++i) {
+        if (model_.coupled()) f[1 + i] -= U[i] * f[0];
+        f[1 + i] = f[1 + i] / mass;
+    }
+}
+
+// The contact in a state of jets, or of jets that depend on time. The derivative of the foot is that of a step of
+// Newton's method for r′·(r − B) = 0 (S24), and the mixed derivative that of another.
+template <class T>
+ContactKinematics<T> ModalJets::kinematics(const std::vector<T>& xi, const std::vector<T>& rate, const T& t,
+                                           const ContactState& near, double gap_offset, std::vector<T>& hq) {
+    const Cam& cam = *problem_.cam;
+    const T psi = cam.phase - cam.speed * t;  // (S23)
+    const T x = cam.eccentricity * cos(psi), y = cam.eccentricity * sin(psi);
+    const Frame<T> frame{sin(xi[0]),       cos(xi[0]),    rate[0],       cam.centre.x + x,
+                         cam.centre.y + y, cam.speed * y, -cam.speed * x};
+    if (expansion_->at() != near.x) {
+        expansion_->forget();
+        expansion_->centre(near.x);
+    }
+    ContactKinematics<T> touch;
+    const int corrections = near.at_end ? 0 : std::is_same_v<T, Jet> ? 1 : 2;
+    expansion_->evaluate(xi.data() + 1, rate.data() + 1, frame, gap_offset, hq.data(), touch, corrections);
+    return touch;
+}
+
+void ModalJets::place_hub(JetState& s) const {
+    if (!drive_.prescribed()) return;
+    const HubMotion hub = drive_.motion(s.t.v);
+    s.xi[0] = chain(s.t, hub.angle, hub.rate);
+    s.rate[0] = chain(s.t, hub.rate, hub.acceleration);
+}
+
+const ContactKinematics<Jet>& ModalJets::contact(JetState& s, const ContactState& near, double gap_offset) {
+    place_hub(s);
+    contact_ = kinematics(s.xi, s.rate, s.t, near, gap_offset, hq_);
+    jn_[0] = contact_.hub;
+    jt_[0] = contact_.hub_t;
+    for (std::size_t i = 0; i + 1 < jn_.size(); ++i)
+        expansion_->rows(contact_, hq_.data(), i, true, jn_[1 + i], jt_[1 + i]);
+    return contact_;
+}
+
+// g̈ at ξ̈ = 0 (S44): the time derivative of the gap rate.
+Jet ModalJets::gap_acceleration_at_rest(const JetState& s, const ContactState& near) {
+    std::vector<JetRate> xi(s.xi.size()), rate(xi), hq(xi);
+    for (std::size_t i = 0; i < xi.size(); ++i) {
+        xi[i] = {s.xi[i], s.rate[i]};
+        rate[i] = {s.rate[i], 0};
+    }
+    return kinematics(xi, rate, JetRate(s.t, 1), near, 0, hq).gap_rate.d;
+}
+
+// The normal force of sustained contact (S45), after `assemble` and `contact`.
+Jet ModalJets::constraint_force(const JetState& s, const ContactState& near) {
+    const Jet ratio = friction_.none() ? Jet() : friction_ratio();
+    std::vector<Jet> free = force_, response(jn_);
+    for (std::size_t i = 0; i < response.size(); ++i) response[i] = jn_[i] + ratio * jt_[i];
+    solve(s, free, true);
+    solve(s, response, false);
+    Jet gap_acceleration = gap_acceleration_at_rest(s, near), per_newton;
+    for (std::size_t i = 0; i < free.size(); ++i) {
+        gap_acceleration += jn_[i] * free[i];
+        per_newton += jn_[i] * response[i];
+    }
+    const Jet decay = baumgarte_rate_ * (2 * contact_.gap_rate + baumgarte_rate_ * (contact_.gap - contact_.gap.v));
+    return -(decay + gap_acceleration) / per_newton;
+}
+
+Jet ModalJets::sliding_bristle(FrictionState state, const Forces& f) const {
+    return (FrictionLaw::sign(state) * friction_.kinetic / friction_.stiffness) * f.normal;
+}
+
+// Friction as FrictionLaw::force.
+ModalJets::Forces ModalJets::forces(JetState& s, const Phase& phase, const ContactState& near) {
+    contact(s, near, phase.gap_offset);
+    assemble(s);
+    Forces f;
+    f.slip = contact_.slip;
+    if (phase.held) {
+        f.normal = constraint_force(s, near);
+    } else {
+        const Jet &gap = contact_.gap, &rate = contact_.gap_rate, &approach = s.approach;
+        const ForceAndSlopes law = law_.linearized(-gap.v, -rate.v, approach.v);
+        // δ̇ and δ̇₋ appear in (S30) as their quotient.
+        f.normal = {law.force, -law.by_depth * gap.d - law.by_rate * (rate.d - (rate.v / approach.v) * approach.d)};
+    }
+    if (friction_.none()) return f;
+    if (!friction_.bristle)
+        f.friction = friction_ratio() * f.normal;
+    else if (phase.friction == FrictionState::stick)
+        f.friction = -friction_.stiffness * s.bristle;
+    else
+        f.friction = (-FrictionLaw::sign(phase.friction) * friction_.kinetic) * f.normal;
+    return f;
+}
+
+void ModalJets::flow(JetState& s, const Phase& phase, const ContactState& near, std::vector<Jet>& acceleration,
+                     Jet& bristle_rate) {
+    bristle_rate = 0;
+    if (phase.touching) {
+        const Forces f = forces(s, phase, near);
+        for (std::size_t i = 0; i < force_.size(); ++i) force_[i] += f.normal * jn_[i] + f.friction * jt_[i];  // (S28)
+        if (friction_.bristle && phase.friction == FrictionState::stick) bristle_rate = f.slip;
+    } else {
+        place_hub(s);
+        assemble(s);
+    }
+    solve(s, force_, true);
+    acceleration = force_;
+}
+
+// ξ̇ ← ξ̇ + M⁻¹(J_nᵀP_n + J_tᵀP_t)                                                                               (S43)
+void ModalJets::apply_impact(JetState& s, const ContactState& near, double restitution) {
+    contact(s, near);
+    assemble(s);
+    std::vector<Jet> by_n = jn_, by_t = jt_;
+    solve(s, by_n, false);
+    solve(s, by_t, false);
+    ComplianceOf<Jet> compliance{0, 0, 0};
+    for (std::size_t i = 0; i < force_.size(); ++i) {
+        compliance.nn += jn_[i] * by_n[i];
+        compliance.nt += 0.5 * (jt_[i] * by_n[i] + jn_[i] * by_t[i]);
+        compliance.tt += jt_[i] * by_t[i];
+    }
+    const ImpactResultOf<Jet> impact = resolve_impact<Jet>(compliance, contact_.gap_rate, contact_.slip,
+                                                           friction_.kinetic, restitution, problem_.contact.law);
+    for (std::size_t i = 0; i < force_.size(); ++i)
+        s.rate[i] += impact.impulse_n * by_n[i] + impact.impulse_t * by_t[i];
+}
+
+double ModalJets::inertia_share(const double* q) const {
+    if (drive_.prescribed() || modes_ == 0) return 1;
+    const ModalMatrices& m = model_.matrices();
+    const Eigen::Map<const Eigen::VectorXd> coordinates(q, modes_);
+    const double condensed = model_.coupled() ? m.U.squaredNorm() / model_.mass() : 0;
+    return 1 + coordinates.dot(model_.inertia_matrix() * coordinates) / (m.J - condensed);
+}
+
+}  // namespace beamcam::sim
