@@ -157,7 +157,7 @@ TEST(Exponents_, SustainedContactForgetsAtOnce) {
     EXPECT_FALSE(e.warnings.empty());
 }
 
-// Sustained contact annihilates all tangents. It occurs once in some hundred turns of this chaotic motion, at turns
+// Sustained contact annihilates all tangents. It occurs once in some fifty turns of this chaotic motion, at turns
 // that rounding chooses: in the transient it is forgotten.
 TEST(Exponents_, RestDuringTheTransientIsForgotten) {
     const PressedBeam b{0.002, 0.85};
@@ -165,14 +165,14 @@ TEST(Exponents_, RestDuringTheTransientIsForgotten) {
     const Exponents whole = lyapunov_exponents(b.on_orbit(52), {0, 0, kTransient, 10});
     EXPECT_EQ(whole.lambda[0], -std::numeric_limits<double>::infinity());
     int finite = 0;
-    for (int window = 0; window < 5; ++window) {
-        const Exponents e = lyapunov_exponents(b.on_orbit(52), {0, kTransient + 50 * window, 50, 10});
+    for (int window = 0; window < 8; ++window) {
+        const Exponents e = lyapunov_exponents(b.on_orbit(52), {0, kTransient + 25 * window, 25, 5});
         if (!std::isfinite(e.lambda[0])) continue;
         ++finite;
         const double expected = 2 * static_cast<double>(e.impacts) / e.duration * std::log(b.restitution);
         EXPECT_NEAR(sum(e), expected, 0.01 * std::fabs(expected)) << window;
     }
-    EXPECT_GE(finite, 3);
+    EXPECT_GE(finite, 2);
 }
 
 // The slowest impacts at the end of chatter cannot be linearized.
