@@ -112,8 +112,7 @@ struct BranchCurves {
     Series stable, unstable;
 };
 BranchCurves curves_of(const output::BranchTable& table, double factor, Lang lang) {
-    BranchCurves out{{.label = phrase(lang, "stable"), .solid = true},
-                     {.label = phrase(lang, "unstable"), .look = 1}};
+    BranchCurves out{{.label = phrase(lang, "stable"), .solid = true}, {.label = phrase(lang, "unstable"), .look = 1}};
     for (const sim::Branch& branch : table.branches) {
         const std::vector<FollowedImpact> impacts = followed_impacts(branch);
         add_impacts(branch, impacts, true, factor, out.stable);
@@ -148,8 +147,7 @@ Figure branches_figure(const output::BranchTable& table, const SweptImpacts& swe
                 .legend = render::figure::Legend::box,
                 .name = "branches"};
     const bool with_sweep = !swept.parameter.empty();
-    if (with_sweep)
-        panel.clouds.push_back({phrase(lang, "sweep"), {}, swept.approach, render::rgb(kSweptColor)});
+    if (with_sweep) panel.clouds.push_back({phrase(lang, "sweep"), {}, swept.approach, render::rgb(kSweptColor)});
     for (const double parameter : swept.parameter) panel.clouds[0].x.push_back(shown.factor * parameter);
     add_special(table, shown.factor, shown.factor * (table.to - table.from), panel);
     for (Series* series : {&curves.stable, &curves.unstable}) {

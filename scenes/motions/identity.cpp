@@ -68,13 +68,9 @@ sim::Problem canonical(sim::Problem p) {
     p.contact.exponent = contact_exponent(p);
     p.contact.stiffness = contact_stiffness(p);
     const sim::SectionProperties section = section_properties(p.beam);
-    const sim::MaterialProperties material = material_properties(p.beam);
     p.beam.section = sim::CustomSection{section.area, section.second_moment, section.c_max};  // c_max: for stresses
     p.beam.depth = 1;                                                                         // otherwise only drawn
-    p.beam.material.reset();
-    p.beam.density = material.density;
-    p.beam.youngs_modulus = material.youngs_modulus;
-    p.beam.poisson_ratio = material.poisson_ratio;
+    p.beam = with_numbers_of_material(p.beam);
     if (p.cam) {
         p.cam->material.reset();
         p.cam->youngs_modulus.reset();  // used for the stiffness only

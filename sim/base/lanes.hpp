@@ -1,6 +1,6 @@
 // Eight numbers side by side, one for each node of a collocation step, in the compiler's vector types of the width that
 // every machine has (wider ones would be split through memory). Every lane sees the same operations in the same order,
-// so results have the same bits with two, four or eight lanes an instruction.
+// so results have the same bits on every machine.
 #pragma once
 
 #include <cmath>

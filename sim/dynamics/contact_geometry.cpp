@@ -87,7 +87,7 @@ ContactState ContactGeometry::evaluate(const Model& model, const GapBound& bound
     c.normal = d * (1 / distance);
     c.tangent = -perp(c.normal);
     c.side = c.at_end ? 0 : std::copysign(1, cross(at.r1, d));
-    c.gap = distance - cam_.radius - offset_ + shift;   // (S25)
+    c.gap = distance - cam_.radius - offset_ + shift;  // (S25)
     c.gap_rate = dot(c.normal, at.v - pose.velocity);  // (S26)
     // χ̇, the angular velocity of the section; the contact face is at a distance d from the centre line (S27).
     const double chi_dot = cross(at.r1, at.v1) / dot(at.r1, at.r1);

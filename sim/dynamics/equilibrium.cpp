@@ -101,12 +101,8 @@ template <class Solve>
 bool soften(const System& given, Solve&& solve) {
     Problem problem = given.problem();
     Beam& beam = problem.beam;
-    const MaterialProperties material = material_properties(beam);
-    beam.material.reset();
-    beam.density = material.density;
-    beam.poisson_ratio = material.poisson_ratio;
-    const double length = beam.length, stiffness = material.youngs_modulus;
-    beam.youngs_modulus = stiffness;
+    beam = with_numbers_of_material(beam);
+    const double length = beam.length, stiffness = beam.youngs_modulus;
     const double load = problem.beam.model == ModelKind::rigid
                             ? 0
                             : force_size(given) * length * length / problem.beam.bending_stiffness();

@@ -40,8 +40,8 @@ class InertiaForces {
     };
 
     double radius_, hub_inertia_, gravity_, mass_ = 0;
-    Eigen::VectorXd mass_beyond_;   // of the part of the beam beyond a quadrature node
-    LaneMatrix double_integral_;    // PᵀWP, P the matrix of ∫₀ˣ to the quadrature nodes and W that of their masses
+    Eigen::VectorXd mass_beyond_;  // of the part of the beam beyond a quadrature node
+    LaneMatrix double_integral_;  // PᵀWP, P the matrix of ∫₀ˣ to the quadrature nodes and W that of their masses
     LaneMatrix shapes_, shapes_transposed_;
     std::vector<Lanes> sin_, cos_, rate_, bend_, x_, y_;
 };

@@ -217,8 +217,8 @@ void NodalStep::set_scales(const double* a, const double* b) {
     scale_theta = rtol_ * std::max(std::fabs(a[0]), std::fabs(b[0])) + atol_;
 }
 
-// The error of the drive's work against gravity, the only one of a rigid beam whose angle is given. It adds up from step
-// to step, so it is kept to a share of the tolerance, as in contact.
+// The error of the drive's work against gravity, the only one of a rigid beam whose angle is given. It adds up from
+// step to step, so it is kept to a share of the tolerance, as in contact.
 double NodalStep::drive_error(double h) const {
     const ExponentialSegment& s = segment;
     const double weight = form->gravity * form->S, rate = largest(s.theta_dot);

@@ -212,10 +212,11 @@ void respond(const OscillatorLanes& group, double tau, Lanes* r) {
         }
     r[1] = sine * group.inverse_damped;
     r[0] = cosine - group.gamma * r[1];
+    const bool any_slow = group.slowest * tau < kSeriesRadians, all_slow = group.fastest * tau < kSeriesRadians;
+    const int powers = kNodes + (any_slow ? 2 + kSeriesTerms : 0);
     double power[kNodes + 2 + kSeriesTerms];  // τʲ/j!
     power[0] = 1;
-    for (int j = 1; j < kNodes + 2 + kSeriesTerms; ++j) power[j] = power[j - 1] * (tau / j);
-    const bool any_slow = group.slowest * tau < kSeriesRadians, all_slow = group.fastest * tau < kSeriesRadians;
+    for (int j = 1; j < powers; ++j) power[j] = power[j - 1] * (tau / j);
     if (all_slow) return descend(group, power, r + 2);
     Lanes before = r[0], last = r[1];
     for (int j = 0; j < kNodes; ++j) {

@@ -154,8 +154,9 @@ void Recorder::finish(double t, const double* y, const RunStatistics& statistics
     result_.energy_scale = summary_.energy_scale;
     result_.energy_residual_max = summary_.energy_residual_max;
     result_.counters = statistics.counters;
-    for (const auto& [by, steps] : {std::pair{statistics.method, statistics.counters.steps - statistics.fallbacks.steps},
-                                    std::pair{statistics.fallbacks.method, statistics.fallbacks.steps}})
+    for (const auto& [by, steps] :
+         {std::pair{statistics.method, statistics.counters.steps - statistics.fallbacks.steps},
+          std::pair{statistics.fallbacks.method, statistics.fallbacks.steps}})
         if (steps > 0) result_.steps_by_method.emplace_back(by, steps);
     result_.beyond_model = bends_beyond(problem, summary_.largest_elastic);
     result_.warnings = warnings(problem, result_, statistics, summary_.largest_elastic);

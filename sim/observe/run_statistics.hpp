@@ -23,8 +23,8 @@ struct Fallbacks {
 struct RunStatistics {
     Counters counters;
     Method method = Method::automatic;  // of all steps but those of a fallback
-    long floored = 0;   // touches slower than the approach floor
-    long chatters = 0;  // ends of chatter in sustained contact
+    long floored = 0;                   // touches slower than the approach floor
+    long chatters = 0;                  // ends of chatter in sustained contact
     Fallbacks fallbacks;
 };
 

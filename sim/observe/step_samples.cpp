@@ -58,9 +58,7 @@ void StepSamples::find_modes() {
         for (Eigen::Index j = 0; j < n; ++j) to_modes_.push_back(natural.inverse(i + 1, j + 1));
 }
 
-void StepSamples::begin(const SegmentInterval& s) {
-    step_ = s;
-}
+void StepSamples::begin(const SegmentInterval& s) { step_ = s; }
 
 // Twice the kinetic energy of each mode per mass of the beam; or its whole energy at the start of a motion, which may
 // rest far from equilibrium. Later the deflection follows the forcing without vibration.

@@ -105,10 +105,10 @@ void warn_of_fallbacks(const Problem& problem, const Result& result, const RunSt
             "the static equilibrium at the start is unstable, since the beam buckles under its weight: the smallest "
             "disturbance makes it fall");
     if (f.friction_changes > 0)
-        out.push_back(fmt::format(
-            "in {} the friction alternated between stick and slip at one instant and kept its state: "
-            "tighten solver.rtol",
-            counted(f.friction_changes, "step")));
+        out.push_back(
+            fmt::format("in {} the friction alternated between stick and slip at one instant and kept its state: "
+                        "tighten solver.rtol",
+                        counted(f.friction_changes, "step")));
     if (f.strikes > 0)
         out.push_back(
             fmt::format("{} taken as plastic: the rebound is smaller than the error of a step; tighten "

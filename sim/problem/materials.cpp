@@ -48,6 +48,15 @@ MaterialProperties material_properties(const Beam& beam) {
     return {beam.density, beam.youngs_modulus, beam.poisson_ratio};
 }
 
+Beam with_numbers_of_material(Beam beam) {
+    const MaterialProperties material = material_properties(beam);
+    beam.material.reset();
+    beam.density = material.density;
+    beam.youngs_modulus = material.youngs_modulus;
+    beam.poisson_ratio = material.poisson_ratio;
+    return beam;
+}
+
 // (S94)
 SectionProperties section_properties(const Section& section) {
     if (const auto* s = std::get_if<Rectangle>(&section))

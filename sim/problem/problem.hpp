@@ -272,6 +272,8 @@ struct MaterialProperties {
 };
 MaterialProperties material_properties(Material material);
 MaterialProperties material_properties(const Beam& beam);
+// The same beam with the numbers of its material in place of the name.
+Beam with_numbers_of_material(Beam beam);
 
 Basis resolved_basis(const Problem& problem);  // never `automatic`
 // Hertz's law is that of a line contact if the section is a rectangle, else of a sphere on a plane (S29).

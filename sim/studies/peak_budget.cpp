@@ -10,24 +10,26 @@
 #include "sim/base/clock.hpp"
 #include "sim/base/counted.hpp"
 #include "sim/beam/model.hpp"
+#include "sim/run/constants.hpp"
+#include "sim/run/horizon.hpp"
 #include "sim/run/simulate.hpp"
 
 namespace beamcam::sim {
 namespace {
 
 constexpr double kUnsettled = 0.1;     // of the peak: a change with half or twice the shapes that is worth a warning
-constexpr double kTolerances = 100;    // by which the tolerance is tightened
 constexpr double kStiffnesses = 2;     // by which the stiffness is changed: that of a contact is not known better
 constexpr double kRestitutions = 0.1;  // by which the restitution is changed
 
 struct Variant {
     std::string change;
     Problem problem;
+    int modes = 0;
 };
 
 Variant with_modes(Problem problem, int modes) {
     set_shapes(problem, problem.beam.model, problem.beam.basis, modes);
-    return {counted(modes, "mode"), std::move(problem)};
+    return {counted(modes, "mode"), std::move(problem), modes};
 }
 
 std::vector<Variant> variants_of(const Problem& problem) {
@@ -42,9 +44,7 @@ std::vector<Variant> variants_of(const Problem& problem) {
             set_shapes(variant.problem, model, problem.beam.basis, modes);
         }
     }
-    Variant& tight = all.emplace_back(Variant{fmt::format("tolerance / {:g}", kTolerances), problem});
-    tight.problem.solver.rtol = std::max(1e-13, problem.solver.rtol / kTolerances);
-    tight.problem.solver.atol = problem.solver.atol / kTolerances;
+    all.push_back({fmt::format("tolerance / {:g}", 1 / kTighterTolerance), tighter_comparison(problem).problem});
     if (!problem.cam) return all;
     if (problem.contact.model == ContactModel::compliant)
         for (const double factor : {1 / kStiffnesses, kStiffnesses}) {
@@ -95,17 +95,14 @@ void measure(PeakRow& row, const Variant& variant, const PeakBudget& budget, dou
 
 // Twice as many shapes tell more than half of them, where they could be afforded.
 std::string advice(const PeakBudget& budget, int modes) {
-    const auto is_of_modes = [](const PeakRow& row) {
-        return row.change.ends_with("mode") || row.change.ends_with("modes");
-    };
-    const std::string twice = counted(2 * modes, "mode");
+    const int twice = 2 * modes;
     const bool has_twice =
-        std::ranges::any_of(budget.rows, [&](const PeakRow& row) { return row.peak && row.change == twice; });
+        std::ranges::any_of(budget.rows, [&](const PeakRow& row) { return row.peak && row.modes == twice; });
     const PeakRow* most = nullptr;
     for (const PeakRow& row : budget.rows) {
-        if (!row.peak || (has_twice && is_of_modes(row) && row.change != twice)) continue;
+        if (!row.peak || (has_twice && row.modes > 0 && row.modes != twice)) continue;
         const auto change = [&](const PeakRow& of) { return std::fabs(relative_change(budget, of)); };
-        if (is_of_modes(row) && change(row) > kUnsettled)
+        if (row.modes > 0 && change(row) > kUnsettled)
             return fmt::format(
                 "the largest {} still changes by {:.0f} % with {}: it has not converged; use more modes, or "
                 "a softer contact",
@@ -139,6 +136,7 @@ PeakBudget peak_budget(const Problem& problem, Channel channel, double end_time,
         ++done;
         PeakRow& row = out.rows.emplace_back();
         row.change = variant.change;
+        row.modes = variant.modes;
         measure(row, variant, out, longest, goes_on);
     }
     out.recommendation = advice(out, problem.beam.modes);

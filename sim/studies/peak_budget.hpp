@@ -13,6 +13,7 @@ namespace beamcam::sim {
 
 struct PeakRow {
     std::string change;          // "16 modes", "stiffness × 2"
+    int modes = 0;               // of a run with another number of shapes
     std::optional<double> peak;  // absent: the run failed or took too long, for the reason in `note`
     double t = 0;                // [s]
     std::string note = {};

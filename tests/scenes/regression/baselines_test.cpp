@@ -53,8 +53,8 @@ TEST(Baselines, TheSchemaAndTheReaderAgree) {
             "$BEAMCAM schema --baselines > schema.json && /usr/bin/python3 -W ignore -c \"import json, jsonschema; "
             "jsonschema.Draft202012Validator(json.load(open('schema.json'))).validate(json.load(open('c.json')))\"");
         // An entry without scene or output is an error of that entry alone, which no schema can express.
-        const bool incomplete = read.err.find("entries.a needs") != std::string::npos &&
-                                read.err.find("unknown key") == std::string::npos;
+        const bool incomplete =
+            read.err.find("entries.a needs") != std::string::npos && read.err.find("unknown key") == std::string::npos;
         EXPECT_EQ(schema.code == 0, valid || incomplete) << text << schema.err;
     }
 }

@@ -186,8 +186,7 @@ TEST(GapProbe, SeesWhatTheContactIs) {
                     y[n + i] = dice.about_zero(0.5);
                 }
                 const double t = 0.01 * k;
-                const ContactState is = alone.contact(t, y.data()),
-                                   seen = probe.evaluate(t, y.data());
+                const ContactState is = alone.contact(t, y.data()), seen = probe.evaluate(t, y.data());
                 if (is.at_end) continue;
                 ++expanded;
                 EXPECT_NEAR(seen.gap, is.gap, 1e-13) << modes;
@@ -236,8 +235,9 @@ TEST(InertiaForces, AreThoseOfTheModelAtEveryNode) {
         cosine[k] = std::cos(xi[0]);
         bending.col(k) = stiffness * xi;
     }
-    inertia.evaluate({rate[0], acceleration[0], position.data() + 1, rate.data() + 1, acceleration.data() + 1, sine, cosine},
-                     forces.data());
+    inertia.evaluate(
+        {rate[0], acceleration[0], position.data() + 1, rate.data() + 1, acceleration.data() + 1, sine, cosine},
+        forces.data());
     for (int k = 0; k < kNodes; ++k)
         for (Eigen::Index i = 0; i < n; ++i)
             EXPECT_NEAR(forces[static_cast<std::size_t>(i)][k], -bending(i, k), 1e-12 * bending.col(k).norm()) << i;
