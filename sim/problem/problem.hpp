@@ -119,11 +119,40 @@ struct Beam {
 
 // ---- cam -------------------------------------------------------------------------------------
 
+// A motion law of a straight rigid lever: s(u) from 0 to 1 over 0 <= u <= 1 (S100).
+enum class MotionLaw { dwell, cycloidal, harmonic, polynomial_345, polynomial_4567, modified_sine, modified_trapezoid };
+std::span<const Named<MotionLaw>> names(MotionLaw);
+struct LawSegment {
+    MotionLaw law = MotionLaw::dwell;
+    double rise = 0;             // change of the lever's angle [rad]; 0 of a dwell
+    std::optional<double> over;  // turn of the cam [rad], > 0; absent: the rest of the turn, of the last segment only
+};
+// The outline that moves a straight lever, whose face is the contact face, by a law of the cam's turn φ = −ψ.
+struct LawProfile {
+    double lowest = 0;                 // θ at φ = 0 [rad]
+    std::vector<LawSegment> segments;  // rises that sum to 0
+};
+struct Arc {
+    Vec2 centre;        // in the cam's frame [m]
+    double radius = 0;  // [m], > 0
+};
+// Arcs about the cam, counter-clockwise, each tangent inside to the next; one arc is a disc.
+struct ArcsProfile {
+    std::vector<Arc> arcs;
+};
+// Points of a closed convex outline in the cam's frame, in order, at least 24; joined by a periodic spline of the
+// support function.
+struct PointsProfile {
+    std::vector<double> x, y;  // [m]
+};
+using Profile = std::variant<LawProfile, ArcsProfile, PointsProfile>;
+
 struct Cam {
     Vec2 centre{0.25, 0};                  // C, the axis of rotation [m]
+    std::optional<Profile> profile;        // replaces radius and eccentricity; absent: the eccentric disc
     double radius = 0.1;                   // R [m], > 0
     double eccentricity = 0.02;            // e [m], 0 <= e < R
-    double phase = 0;                      // ψ₀ [rad], counter-clockwise angle of B about C at t = 0
+    double phase = 0;                      // ψ₀ [rad], counter-clockwise angle of the cam's frame at t = 0
     double speed = 1;                      // ω [rad/s], positive clockwise: ψ = ψ₀ − ω t
     std::optional<Material> material;      // replaces youngs_modulus and poisson_ratio
     std::optional<double> youngs_modulus;  // [Pa]; Hertz stiffness only; absent: that of the beam
