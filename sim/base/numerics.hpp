@@ -1,5 +1,5 @@
 // Small numerical tools of the mechanics: Gauss–Legendre quadrature on [0, L], spectral integration
-// between its nodes, a bracketing root finder, and the maximum of a function. No physics.
+// between its nodes, bracketing root finders, and the maximum of a function. No physics.
 //
 // Sources: Golub & Welsch 1969 (nodes as zeros of P_n, found here by Newton's method), Chandrupatla
 // 1997 (root finder), Trefethen "Spectral Methods in MATLAB" ch. 12 (quadrature by interpolation).
@@ -7,9 +7,12 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "sim/base/assert.hpp"
 #include "sim/base/vec2.hpp"
@@ -89,6 +92,24 @@ double find_root(F&& f, double a, double b) {
     return find_root(std::forward<F>(f), a, b, fa, fb);
 }
 
+// The root of an increasing function in [low, high] by Newton's method, else by bisection. f(x) returns its value and
+// its slope. Without a root the end that is nearest to one.
+template <class F>
+double increasing_root(F&& f, double low, double high) {
+    constexpr int kMostSteps = 100;  // bisection alone needs 52
+    double x = 0.5 * (low + high);
+    for (int i = 0; i < kMostSteps; ++i) {
+        const auto [value, slope] = f(x);
+        (value > 0 ? high : low) = x;
+        double next = x - value / slope;
+        if (!(next > low && next < high)) next = 0.5 * (low + high);
+        const double change = std::fabs(next - x);
+        x = next;
+        if (change <= 2e-16 * std::fabs(x)) break;
+    }
+    return x;
+}
+
 // The top of the parabola through three points in the order of x; nothing if it has none between the first and the
 // last.
 inline std::optional<Vec2> vertex(const Vec2& a, const Vec2& b, const Vec2& c) {
@@ -124,6 +145,30 @@ Vec2 climb(F&& f, Vec2 a, Vec2 b, Vec2 c, double to_beat, double negligible) {
             (before ? c : a) = std::exchange(b, next);
         else
             (before ? a : c) = next;
+    }
+    return best;
+}
+
+// Where f is largest over intervals with these increasing ends, inside each of which it is smooth: {x, f(x)}. At an end
+// both limits count.
+template <class F>
+Vec2 largest_over(const std::vector<double>& ends, F&& f) {
+    constexpr int kSamples = 8;        // in an interval
+    constexpr double kInside = 1e-13;  // of an interval: its last sample does not belong to the next one
+    Vec2 best{ends.front(), -std::numeric_limits<double>::infinity()};
+    const auto keep = [&best](const Vec2& at) {
+        if (at.y > best.y) best = at;
+    };
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+        const double width = (ends[i + 1] - ends[i]) * (1 - kInside);
+        std::array<Vec2, kSamples + 1> samples;
+        for (std::size_t k = 0; k <= kSamples; ++k) {
+            const double x = ends[i] + width * static_cast<double>(k) / kSamples;
+            keep(samples[k] = {x, f(x)});
+        }
+        for (std::size_t k = 1; k < kSamples; ++k)
+            if (samples[k].y >= samples[k - 1].y && samples[k].y >= samples[k + 1].y)
+                keep(climb([&f](double x) { return f(x); }, samples[k - 1], samples[k], samples[k + 1], best.y, 0));
     }
     return best;
 }

@@ -1,4 +1,4 @@
-// The outline of the cam as its support function. MODEL.md §7.
+// The outline of the cam as its support function. MODEL.md (S102).
 //
 // In the cam's own frame, whose origin is the axis C and which turns with ψ, h(α) is the distance from C to the tangent
 // whose outward normal is n(α) = (cos α, sin α). The point of the outline with that normal is p = h n + h′ t with
@@ -26,9 +26,12 @@ class CamShape {
     explicit CamShape(const Problem& problem);
 
     bool is_disc() const { return pieces_.empty(); }
-    CamPoint at(double alpha) const;  // any α [rad]; accurate to about 1e-15 of the size
+    CamPoint at(double alpha) const;          // any α [rad]; accurate to about 1e-15 of the size
+    double radius_slope(double alpha) const;  // dρ/dα [m]; accurate to about 1e-12 of the size
     // The angles in [0, 2π) where ρ or its derivative jumps, increasing; but not the knots of a profile of points.
     std::span<const double> kinks() const { return kinks_; }
+    // Intervals of a turn, over each of which the outline is smooth: their ends, from 0 to 2π, increasing.
+    std::vector<double> intervals() const;
 
     double least_radius() const { return least_radius_; }      // of ρ [m]
     double largest_radius() const { return largest_radius_; }  // of ρ [m]
@@ -39,11 +42,17 @@ class CamShape {
 
   private:
     static constexpr int kDegree = 9;
+    using Coefficients = std::array<double, kDegree + 1>;
     struct Piece {
-        double from = 0, middle = 0, scale = 0;            // z = (α − middle) scale, in [−1, 1]
-        std::array<double, kDegree + 1> h, slope, radius;  // coefficients of zᵏ
+        double from = 0, middle = 0, scale = 0;  // z = (α − middle) scale, in [−1, 1]
+        Coefficients h, slope, radius;           // of zᵏ
+        CamPoint at(double alpha) const;
+        double radius_slope(double alpha) const;
     };
+    struct Fit;
     const Piece& piece(double alpha) const;  // α in [0, 2π)
+    void find_kinks(const std::vector<double>& ends, double size);
+    void find_extremes();
 
     double disc_radius_ = 0, eccentricity_ = 0;
     std::vector<Piece> pieces_;     // increasing, the first from 0

@@ -149,7 +149,6 @@ using Profile = std::variant<LawProfile, ArcsProfile, PointsProfile>;
 
 struct Cam {
     Vec2 centre{0.25, 0};                  // C, the axis of rotation [m]
-    std::optional<Profile> profile;        // replaces radius and eccentricity; absent: the eccentric disc
     double radius = 0.1;                   // R [m], > 0
     double eccentricity = 0.02;            // e [m], 0 <= e < R
     double phase = 0;                      // ψ₀ [rad], counter-clockwise angle of the cam's frame at t = 0
@@ -157,6 +156,7 @@ struct Cam {
     std::optional<Material> material;      // replaces youngs_modulus and poisson_ratio
     std::optional<double> youngs_modulus;  // [Pa]; Hertz stiffness only; absent: that of the beam
     double poisson_ratio = 0.3;            // [–]
+    std::optional<Profile> profile = {};   // replaces radius and eccentricity; absent: the eccentric disc
 };
 
 // ---- contact ---------------------------------------------------------------------------------

@@ -1,0 +1,131 @@
+#include "sim/cam/lever.hpp"
+
+#include "tests/sim/cam/profiles.hpp"
+#include "tests/sim/support.hpp"
+
+namespace beamcam::sim::testing {
+namespace {
+
+Problem lift_and_return_lever() {
+    Problem p = with_profile(lift_and_return());
+    p.beam.model = ModelKind::rigid;
+    return p;
+}
+
+TEST(Lever, FollowsTheLawOfItsProfile) {
+    for (const double offset : {0.0, 0.01}) {
+        Problem p = lift_and_return_lever();
+        p.cam->centre = {0.24, -0.03};
+        p.contact.offset = offset;
+        auto& law = std::get<LawProfile>(*p.cam->profile);
+        law.segments[1].law = MotionLaw::modified_sine;
+        law.lowest = 10 * kDegree;
+        const Lever lever(p);
+        const ProgrammedMotion motion(law);
+        for (double phi = -3; phi < 9; phi += 0.0173) {
+            const Lever::State s = lever.at(phi);
+            const LeverMotion m = motion.at(phi);
+            EXPECT_NEAR(s.motion.theta, m.theta, 3e-14);  // θ′ times the rounding of α = 9
+            EXPECT_NEAR(s.motion.velocity, m.velocity, 1e-13);
+            EXPECT_NEAR(s.motion.acceleration, m.acceleration, 1e-12);
+            EXPECT_NEAR(s.motion.jerk, m.jerk, 1e-8);
+            const Vec2 u = unit(m.theta), c = p.cam->centre;
+            EXPECT_NEAR(s.foot, dot(c, u) / (1 + m.velocity), 1e-13);
+            // The point of the outline, turned by ψ = −φ about C, lies on the face of the lever.
+            const double ahead = s.alpha - phi;
+            const Vec2 contact = c + s.point.h * unit(ahead) + s.point.slope * perp(unit(ahead));
+            EXPECT_NEAR(norm(contact - (s.foot * u - offset * perp(u))), 0, 1e-13);
+        }
+    }
+}
+
+TEST(Lever, ContactIsWhereTheClosedFormSays) {
+    const Lever lever(lift_and_return_lever());
+    EXPECT_NEAR(lever.at(0).foot, 0.2425739316, 5e-11);
+    EXPECT_NEAR(lever.at(90 * kDegree).foot, 0.2183958995, 5e-11);
+    EXPECT_NEAR(lever.at(135 * kDegree).foot, 0.2157085151, 5e-11);
+    EXPECT_EQ(lever.pressure_angle(lever.at(1)), 0);
+}
+
+// The eccentric disc by its centre: the lever is tangent to a circle of radius R + d about B.
+TEST(Lever, FollowsTheDisc) {
+    Problem p;
+    p.contact.offset = 0.005;
+    const Lever lever(p);
+    const auto angle = [&](double phi) {
+        const Vec2 centre = p.cam->centre + p.cam->eccentricity * unit(-phi);
+        return std::atan2(centre.y, centre.x) + std::asin((p.cam->radius + 0.005) / norm(centre));
+    };
+    for (double phi = 0; phi < kFullTurn; phi += 0.11) {
+        const Lever::State s = lever.at(phi);
+        EXPECT_NEAR(s.motion.theta, angle(phi), 1e-14);
+        const Vec2 centre = p.cam->centre + p.cam->eccentricity * unit(-phi);
+        EXPECT_NEAR(s.foot, dot(centre, unit(angle(phi))), 1e-14);
+        EXPECT_NEAR(s.motion.velocity, scalar_slope_at_zero([&](double x) { return angle(phi + x); }, 1e-2), 1e-11);
+        const auto velocity = [&](double x) { return lever.at(phi + x).motion.velocity; };
+        const auto acceleration = [&](double x) { return lever.at(phi + x).motion.acceleration; };
+        EXPECT_NEAR(s.motion.acceleration, scalar_slope_at_zero(velocity, 1e-2), 1e-10);
+        EXPECT_NEAR(s.motion.jerk, scalar_slope_at_zero(acceleration, 1e-2), 1e-9);
+        EXPECT_NEAR(lever.pressure_angle(s), std::atan(0.005 / s.foot), 1e-15);
+    }
+}
+
+TEST(Lever, JumpsAtThePublishedSpeed) {
+    const Lever lever(lift_and_return_lever());
+    const auto jump = lever.jump();
+    ASSERT_TRUE(jump);
+    EXPECT_NEAR(jump->speed, 6.900035815, 5e-10);
+    // The force vanishes there and nowhere else.
+    const auto force = [&](double phi, double speed) {
+        const Lever::State s = lever.at(phi);
+        return (lever.inertia() * speed * speed * s.motion.acceleration + lever.pressing_moment(s.motion.theta)) /
+               s.foot;
+    };
+    EXPECT_NEAR(force(jump->phi, jump->speed), 0, 1e-9);
+    for (double phi = 0; phi < kFullTurn; phi += 0.003) EXPECT_GT(force(phi, jump->speed), -1e-9);
+}
+
+TEST(Lever, JumpsAtOnceWhereNothingPresses) {
+    Problem p = lift_and_return_lever();
+    p.hub.drive = ConstantTorque{3};
+    const auto lifted = Lever(p).jump();
+    ASSERT_TRUE(lifted);
+    EXPECT_EQ(lifted->speed, 0);
+    p.hub.drive = ConstantTorque{-1};
+    EXPECT_GT(Lever(p).jump()->speed, 6.900035815);
+    p.hub.drive = HarmonicTorque{1, 1, 0};
+    EXPECT_FALSE(Lever(p).jump());
+    Problem round;
+    round.cam->eccentricity = 0;
+    EXPECT_FALSE(Lever(round).jump());
+}
+
+// With a jump of θ″ at the start of the return the limit from its side counts.
+TEST(Lever, JumpsAtAJumpOfTheAcceleration) {
+    Problem p = lift_and_return_lever();
+    std::get<LawProfile>(*p.cam->profile).segments[3].law = MotionLaw::harmonic;
+    const Lever lever(p);
+    const double rise = 8 * kDegree, over = 120 * kDegree, top = 22 * kDegree;
+    const double acceleration = -0.5 * std::numbers::pi * std::numbers::pi * rise / (over * over);
+    const double expected = std::sqrt(lever.pressing_moment(top) / (-lever.inertia() * acceleration));
+    const double of_the_rise = 6.900035815;
+    ASSERT_TRUE(lever.jump());
+    EXPECT_NEAR(lever.jump()->speed, std::min(expected, of_the_rise), 1e-9);
+}
+
+TEST(Lever, OneArcAndManyPointsAreTheDisc) {
+    const Lever disc{Problem{}};
+    const Lever arc(with_profile(ArcsProfile{{{{0.02, 0}, 0.1}}}));
+    const Lever points(with_profile(
+        points_of(720, [](double alpha) { return std::pair(0.1 + 0.02 * std::cos(alpha), -0.02 * std::sin(alpha)); })));
+    ASSERT_TRUE(disc.jump() && arc.jump() && points.jump());
+    EXPECT_NEAR(arc.jump()->speed, disc.jump()->speed, 1e-12);
+    EXPECT_NEAR(points.jump()->speed, disc.jump()->speed, 1e-4);
+    for (double phi = 0; phi < kFullTurn; phi += 0.21) {
+        EXPECT_NEAR(arc.at(phi).motion.theta, disc.at(phi).motion.theta, 1e-14);
+        EXPECT_NEAR(points.at(phi).motion.theta, disc.at(phi).motion.theta, 1e-11);
+    }
+}
+
+}  // namespace
+}  // namespace beamcam::sim::testing
