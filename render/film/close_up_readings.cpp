@@ -38,7 +38,7 @@ std::string collision_counter(const Motion& motion, double t) {
     }
     const double over = end + sim::collision_gap(motion.problem);
     if (t > over) return {};
-    const std::string counted = fmt::format("collision {} · impact {}", last.collision + 1, number);
+    const std::string counted = fmt::format("collision {} · impact {}", last.collision, number);
     // The collision may go on after the end of the motion.
     return over <= motion.end ? fmt::format("{} of {}", counted, of) : counted;
 }

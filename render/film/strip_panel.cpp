@@ -47,7 +47,7 @@ class CollisionPanel final : public FilmPanel {
             if (i.t_start > context.span.high) break;
             const double end = std::min(i.t_end.value_or(context.span.high), context.span.high);
             if (context.frames() > 1 && end < context.at(0)) continue;  // before the film
-            if (spans_.empty() || i.collision != last_) spans_.push_back({{i.t_start, end}, end, i.collision + 1});
+            if (spans_.empty() || i.collision != last_) spans_.push_back({{i.t_start, end}, end, i.collision});
             Collision& now = spans_.back();
             now.span.high = std::max(now.span.high, end);
             now.shown = end - i.t_start > kLasting ? i.t_start + kShown : now.span.high;

@@ -170,7 +170,7 @@ void AxisMap::linear(const Axis& axis, int most) {
 // The power of ten that divides numbers of this order: the prefix of the unit, and a factor for the rest.
 int AxisMap::choose_powers(const Axis& axis, double order, bool offset) {
     int by_prefix = 0;
-    const std::optional<PrefixedUnit> unit = prefixed_unit(base_unit_);
+    const std::optional<PrefixedUnit> unit = axis.keeps_unit ? std::nullopt : prefixed_unit(base_unit_);
     if (unit && (axis.short_numbers || (usual_shift(order) != 0 && !offset))) {
         const Prefix prefix = prefix_for(std::pow(10.0, order + unit->power));
         by_prefix = static_cast<int>(std::lround(std::log10(prefix.factor))) - unit->power;

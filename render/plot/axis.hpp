@@ -27,6 +27,7 @@ struct Axis {
     bool counts = false;                       // integers: no ticks between them (linear)
     bool round_ends = false;                   // widened to multiples of the ticks' step (linear)
     bool short_numbers = false;                // a prefix for numbers of more than three digits or below 1
+    bool keeps_unit = false;                   // the label's unit gets no other prefix
     bool grid = false;                         // in films: few numbers, and x has lines across the plot for ticks
     // The numbers are values in this unit, without prefix, factor or offset (linear); the first one that is written.
     std::optional<double> unit = {}, first_number = {};

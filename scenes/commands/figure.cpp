@@ -1,13 +1,16 @@
 // `beamcam figure`: one figure for print.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <iterator>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "output/data/table_reader.hpp"
 #include "output/json/source.hpp"
 #include "render/draw/markup.hpp"
 #include "scenes/commands/key_options.hpp"
@@ -19,6 +22,10 @@
 
 namespace beamcam::scenes {
 namespace {
+
+using OptionKey = std::pair<std::string_view, const char*>;
+constexpr OptionKey kOptionsOfTables[] = {
+    {"--label", "label"}, {"--unit", "unit"}, {"--x-label", "x_label"}, {"--x-unit", "x_unit"}};
 
 struct FigureArguments {
     Common common;
@@ -139,19 +146,9 @@ void reject_options_of_others(const FigureArguments& args, const FigureType& typ
         if (const auto misplaced = type.misplaced(key)) throw UsageError(fmt::format("{} {}", option, *misplaced));
 }
 
-FigureOutput figure_output(const FigureArguments& args, const std::optional<Preset>& preset, const Scene& scene) {
+FigureOutput with_files(FigureOutput figure, const FigureArguments& args) {
     require_ending("-o", args.file, kFigureEndings);
-    if (args.figure == "series" && !preset && !args.channels.any())
-        throw UsageError("figure series: name its --channels, for example theta,contact_force");
-    const KeyOptions no_channels{"figure"};  // they are in the panel
-    auto figure = std::get<FigureOutput>(
-        read_output(output_node(args, preset),
-                    {&args.print, args.describes_panel() ? &no_channels : &args.channels, &args.panel, &args.span},
-                    scene, args.scene, args.common));
     figure.file = args.file;
-    if (SeriesKeys& keys = figure.series; !args.compare.empty())
-        keys.compare.front().problem = scene.problem;  // with the values of --set
-    for (SeriesPanel& panel : figure.series.panels) panel.logarithmic = panel.logarithmic || args.logarithmic;
     if (args.data) {
         require_ending("--data", *args.data, {".csv"});
         figure.data_file = *args.data;
@@ -163,8 +160,62 @@ FigureOutput figure_output(const FigureArguments& args, const std::optional<Pres
     return figure;
 }
 
+FigureOutput figure_output(const FigureArguments& args, const std::optional<Preset>& preset, const Scene& scene) {
+    if (args.figure == "series" && !preset && !args.channels.any())
+        throw UsageError("figure series: name its --channels, for example theta,contact_force");
+    const KeyOptions no_channels{"figure"};  // they are in the panel
+    auto figure = std::get<FigureOutput>(
+        read_output(output_node(args, preset),
+                    {&args.print, args.describes_panel() ? &no_channels : &args.channels, &args.panel, &args.span},
+                    scene, args.scene, args.common));
+    if (SeriesKeys& keys = figure.series; !args.compare.empty())
+        keys.compare.front().problem = scene.problem;  // with the values of --set
+    for (SeriesPanel& panel : figure.series.panels) panel.logarithmic = panel.logarithmic || args.logarithmic;
+    return with_files(std::move(figure), args);
+}
+
+// ---- a table in place of a scene ---------------------------------------------------------------------
+
+bool is_table(const std::string& file) {
+    static constexpr std::array kEndings{".csv", ".npz", ".tsv", ".txt", ".dat"};
+    return std::ranges::find(kEndings, lowered(std::filesystem::path(file).extension().string())) != kEndings.end();
+}
+
+// The columns that the options name.
+Node table_node(const FigureArguments& args) {
+    Node table = object_node({{"file", std::filesystem::path(args.scene).filename().string()}});
+    if (const std::string* x = args.span.value("--x")) add(table, "x", *x);
+    add(table, "y", args.channels.values("--channels"));
+    for (const auto& [option, key] : kOptionsOfTables)
+        for (const KeyOptions* group : {&args.span, &args.panel})
+            if (const std::string* value = group->value(option)) add(table, key, *value);
+    return table;
+}
+
+void draw_table(const FigureArguments& args) {
+    const auto names = output::read_columns(args.scene, [](const std::string&) { return false; }).names();
+    if (args.list || args.file.empty()) return print_text(fmt::format("{}\n", fmt::join(names, "\n")));
+    for (const auto& [option, key] : args.of_series())
+        if (option != "--x" && option != "--channels" &&
+            !std::ranges::count(kOptionsOfTables, option, &OptionKey::first))
+            throw UsageError(fmt::format("{} needs a scene; {} is a table", option, args.scene));
+    if (!args.figure.empty() && args.figure != "table")
+        throw UsageError(fmt::format("figure {} needs a scene; {} is a table", args.figure, args.scene));
+    if (!args.span.value("--x") || !args.channels.any())
+        throw UsageError(fmt::format("figure {}: name the columns with --x and --channels; it has {}", args.scene,
+                                     fmt::join(names, ", ")));
+    Scene scene;
+    scene.name = std::filesystem::path(args.scene).stem().string();
+    Node output = output_of("table");
+    add(output, "table", table_node(args));
+    auto figure = std::get<FigureOutput>(read_output(std::move(output), {&args.print}, scene, args.scene, args.common));
+    scene.set_outputs({with_files(std::move(figure), args)});
+    run_or_plan({&scene, 1}, run_options(args.common, ""), args.common);
+}
+
 void act(const FigureArguments& given) {
     FigureArguments args = given;
+    if (is_table(args.scene)) return draw_table(args);
     Scene scene = load_scene(args.scene, args.common);
     if (args.figure.empty() && !args.of_series().empty()) args.figure = "series";
     if (args.figure.empty() && args.print.value("--at")) args.figure = "strobe";
@@ -212,6 +263,9 @@ void add_content_options(Command& app, FigureArguments& args) {
     args.span.add(app, "--x", "x", "CHANNEL");
     args.span.add(app, "--x-low", "x_low", "V");
     args.span.add(app, "--x-high", "x_high", "V");
+    args.span.add(app, "--x-label", "x_label", "TEXT");
+    args.span.add(app, "--x-unit", "x_unit", "UNIT");
+    args.span.add(app, "--horizon", "horizon", "BOOL");
     args.span.add(app, "--from", "from", "T");
     args.span.add(app, "--to", "to", "T");
     args.print.add(app, "--at", "at", "T");
@@ -231,6 +285,10 @@ void add_series_options(Command& app, FigureArguments& args) {
         .says(one_panel + "lower end of the left axis, such as 45deg; a plain number is in SI units");
     args.panel.add(app, "--high", "panels.0.high", "V")
         .says(one_panel + "upper end of the left axis; a plain number is in SI units");
+    args.panel.add(app, "--label", "panels.0.label", "TEXT")
+        .says(one_panel + "label of the left axis, without the unit");
+    args.panel.add(app, "--unit", "panels.0.unit", "UNIT")
+        .says(one_panel + "unit of the left axis, such as MPa or deg");
     app.option("--title", &args.title, "TEXT", "In \"series\" with one panel: its title; $θ$ is mathematics");
     app.option("--note", &args.notes, "AT=TEXT",
                "In \"series\": a line with a text at an instant, for example impact:1=touch (repeatable)");
@@ -248,7 +306,11 @@ void add_figure(Grammar& grammar) {
     const auto [app, args] = grammar.command<FigureArguments>(
         "figure", "Make a figure for print; without FIGURE, list the figures of the scene", act);
     app.examples = {"figure fall.json energy -o energy.pdf --column aps",
-                    "figure fall.json --channels theta,contact_force --from impact:1 -o touch.svg"};
+                    "figure fall.json --channels theta,contact_force --from impact:1 -o touch.svg",
+                    "figure peaks.csv --x cam.speed --x-unit rpm --channels force_peak -o peaks.pdf"};
+    app.footer =
+        "In place of SCENE a table may stand (.csv, .npz): its columns --channels over --x, with --label, --unit, "
+        "--x-label and --x-unit. Without -o its columns are listed.";
     add_scene(app, args.scene, args.common);
     app.positional("FIGURE", &args.figure,
                    "Name of the figure or preset; not needed with --channels (\"series\") and --at (\"strobe\")");

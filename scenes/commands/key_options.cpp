@@ -105,9 +105,11 @@ Output read_output(Node output, std::initializer_list<const KeyOptions*> options
             throw UsageError(fmt::format("{} belongs to outputs of type {}; this one is of type {}", option->name,
                                          types_with(option->key), output.find("type")->value.text));
         std::string text = message.text;
-        if (option && text.starts_with(option->key))  // "--low = "abc" …" in place of "panels.0.low = "abc" …"
-            text.replace(0, option->key.size(), option->name);
-        else if (option)
+        if (option && text.starts_with(option->key)) {  // "--low = "abc" …" in place of "panels.0.low = "abc" …"
+            std::size_t path = option->key.size();
+            if (!option->values.empty() && text[path] == '.') path = text.find(' ', path);  // of one in a list
+            text.replace(0, path, option->name);
+        } else if (option)
             text = fmt::format("{}: {}", option->name, text);
         if (message.fatal) throw UsageError(text);
         inform(common, fmt::format("{}: warning: {}", scene_file, text));

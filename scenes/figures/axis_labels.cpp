@@ -74,6 +74,11 @@ Measure measure_in(const render::Units& units, const std::string& si_unit) {
     return {factor, factor == 1 ? si_unit : units.unit(si_unit)};
 }
 
+Measure measure_in(const AxisUnit& unit) {
+    const bool degrees = unit.name == "deg" || unit.name.starts_with("deg/");
+    return {1 / unit.si, degrees ? "°" + unit.name.substr(3) : unit.name};
+}
+
 Measure measure_of(const std::string& unit, double largest) {
     const auto is_unit = [&](const char* each) { return unit == each; };
     const bool prefixed = std::ranges::any_of(std::array{"m", "N", "J", "s", "Pa", "W"}, is_unit);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "render/film/film.hpp"
+#include "scenes/scene/outputs.hpp"
 
 namespace beamcam::scenes {
 
@@ -25,6 +26,8 @@ struct Measure {
 };
 // Angles and speeds are in the scene's units, other quantities in SI units.
 Measure measure_in(const render::Units& units, const std::string& si_unit);
+// In a unit that the user names.
+Measure measure_in(const AxisUnit& unit);
 // The prefix that suits the largest value, in SI units; of m, N, J and s alone.
 Measure measure_of(const std::string& unit, double largest);
 // The unit of the scene, for angles and speeds, or else the prefix that suits the largest value.

@@ -24,8 +24,7 @@ std::vector<double> instants(const Instants& grid);
 // Motions are named by their index; so are the tables and points of each. Equal motions share one integration later.
 class MotionRequests {
   public:
-    // A motion until `end_time` [s]. Its apexes and zero crossings of θ are found only where `apexes` and
-    // `zero_crossings` are called.
+    // A motion until `end_time` [s]. Its zero crossings of θ are found only where `zero_crossings` is called.
     std::size_t motion(const sim::Problem& problem, double end_time);
     std::size_t table(std::size_t motion, const Instants& at, const std::vector<sim::ChannelKind>& channels);
     // A table for a curve: t, `x` and `y`, or t and `y` where x is t, with rows added where the curve bends, and the
@@ -35,7 +34,6 @@ class MotionRequests {
                       const std::pair<double, double>& drawn = sim::TableRequest().drawn);
     std::size_t add_table(std::size_t motion, sim::TableRequest table);
     std::size_t point(std::size_t motion, double x, const Instants& at);
-    void apexes(std::size_t motion) { request(motion).apexes = true; }
     void zero_crossings(std::size_t motion) { request(motion).zero_crossings = true; }
     void horizon(std::size_t motion) { request(motion).horizon = true; }
 

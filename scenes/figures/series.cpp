@@ -64,7 +64,7 @@ extern const FigureType kSeries{.name = "series",
                                 .title = "Any channels, of one motion or of several",
                                 .refusal = no_refusal,
                                 .maker = prepare_series,
-                                .keys = {"channels", "panels", "x", "x_low", "x_high", "from", "to", "impacts", "notes",
-                                         "compare", "comparison", "residuals", "horizon"}};
+                                .keys = {"channels", "panels", "x", "x_low", "x_high", "x_label", "x_unit", "from",
+                                         "to", "impacts", "notes", "compare", "comparison", "residuals", "horizon"}};
 
 }  // namespace beamcam::scenes

@@ -42,6 +42,8 @@ class SeriesAbscissa {
 
     std::string against_;
     std::optional<double> low_, high_;
+    std::string label_;
+    AxisUnit unit_;
     Lang lang_;
     std::optional<sim::Channel> channel_;
 };

@@ -20,7 +20,12 @@ constexpr double kAir = 0.03;    // beside the curves, of their extent
 }  // namespace
 
 SeriesAbscissa::SeriesAbscissa(const SeriesKeys& keys, Lang lang)
-    : against_(keys.against), low_(keys.x_low), high_(keys.x_high), lang_(lang) {
+    : against_(keys.against),
+      low_(keys.x_low),
+      high_(keys.x_high),
+      label_(keys.x_label),
+      unit_(keys.x_unit),
+      lang_(lang) {
     if (const auto named = sim::channel_named(against_); named && named->kind != ChannelKind::t) channel_ = *named;
     if (is_phase()) channel_ = Channel{ChannelKind::cam_angle, 0};
 }
@@ -95,7 +100,10 @@ void SeriesAbscissa::share(Figure& figure, const sim::Problem& problem, const re
     if (is_frequency()) measure = {1, "Hz"}, symbol = "$f$";
     if (is_phase()) measure = {1, "(2π)"}, symbol = phrase(lang_, "phase of the cam");
     if (is_turns()) measure = {1, ""}, symbol = phrase(lang_, "turns of the cam");
+    if (!unit_.name.empty()) measure = measure_in(unit_);
+    if (!label_.empty()) symbol = label_;
     for (Panel& each : figure.panels) {
+        each.x.keeps_unit = !unit_.name.empty();
         each.x.label = axis_label(symbol, measure.unit);
         if (range.high > range.low) each.x.from = range.low * measure.factor, each.x.to = range.high * measure.factor;
         for (Series& curve : each.series) curve.x = scaled(std::move(curve.x), measure.factor);

@@ -77,9 +77,10 @@ class SeriesPanelMaker {
     void add_side(Side side) {
         read(side);
         Axis& axis = side.right ? *panel_.right : panel_.y;
-        const bool own_label = !side.right && !keys_.label.empty();
+        const std::string& own = side.right ? keys_.right_label : keys_.label;
         axis.label =
-            axis_label(own_label ? keys_.label : fmt::format("{}", fmt::join(side.symbols, ", ")), side.measure.unit);
+            axis_label(own.empty() ? fmt::format("{}", fmt::join(side.symbols, ", ")) : own, side.measure.unit);
+        axis.keeps_unit = !unit_of(side).name.empty();
         for (std::size_t i = 0; i < side.curves.size(); ++i) side.curves[i].sum ? add_sum(side, i) : add_curve(side, i);
         if (std::ranges::find(planned_.motions, plan_.measured_motion) != planned_.motions.end()) add_data(side);
         if (side.right) return;
@@ -88,6 +89,8 @@ class SeriesPanelMaker {
         for (const double at : keys_.lines) panel_.rules.push_back({.at = at * side.measure.factor});
         if (is_closure()) begin_at_rounding(side);
     }
+
+    const AxisUnit& unit_of(const Side& side) const { return side.right ? keys_.right_unit : keys_.unit; }
 
     // Reads the rows of the curves. Separate panels of several motions have one unit.
     void read(Side& side) const {
@@ -102,7 +105,9 @@ class SeriesPanelMaker {
             throw render::PictureError(
                 fmt::format("series: {} has no value from {:g} s to {:g} s", name(first), plan_.keys.from, plan_.end));
         const std::string si = unit(first, plan_.motions.front().problem);
-        side.measure = plan_.has_sums() ? Measure{1, si} : measure_of(si, most, plan_.units);
+        side.measure = !unit_of(side).name.empty() ? measure_in(unit_of(side))
+                       : plan_.has_sums()          ? Measure{1, si}
+                                                   : measure_of(si, most, plan_.units);
         for (const Channel& channel : side.channels)
             side.symbols.push_back(
                 fmt::format(fmt::runtime(plan_.abscissa.is_frequency() || is_closure() ? "|{}|" : "{}"),
@@ -146,7 +151,7 @@ class SeriesPanelMaker {
         const bool total = !sum.minus.empty();
         Series curve{.label = phrase(plan_.lang, sum.label),
                      .x = plan_.abscissa.of(side.rows[i], plan_.motions[side.curves[i].motion].problem),
-                     .y = values,
+                     .y = scaled(values, side.measure.factor),
                      .look = total ? kBlack : curves_++,
                      .solid = total,
                      .weight = total ? 1 : kCurveWeight};

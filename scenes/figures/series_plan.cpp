@@ -5,6 +5,7 @@
 #include "scenes/figures/series.hpp"
 #include "scenes/figures/series_data.hpp"
 #include "scenes/motions/identity.hpp"
+#include "scenes/scene/time_map.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -114,8 +115,8 @@ void complete(SeriesPlan& plan, const Scene& scene, MotionRequests& requests) {
     for (SeriesMotion& motion : plan.motions) {
         motion.request = requests.motion(motion.problem, plan.end);
         if (keys.horizon && !plan.abscissa.is_frequency()) requests.horizon(motion.request);
-        if (std::ranges::any_of(keys.notes, [](const auto& n) { return n.at.kind == Instant::Kind::apex; }))
-            requests.apexes(motion.request);
+        for (const SeriesNote& note : keys.notes)
+            record_event(note.at, scene.end_time, requests.request(motion.request));
     }
     plan.measured_motion = motion_measured(scene, plan.motions);
     plan.measured = measured(scene, channels_of(plan), keys.from, plan.end, plan.motion_with_data().request, requests);

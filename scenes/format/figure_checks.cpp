@@ -122,6 +122,7 @@ void check_series(ObjectReader& r, FigureOutput& figure) {
     if (series.against == "frequency" && r.has("channels"))
         for (SeriesPanel& panel : series.panels) panel.logarithmic = true;
     check_abscissa(r, series);
+    check_markup(r, "x_label", series.x_label);
     check_residuals(r, series);
     check_comparison(r, series);
     warn_of_undrawn_data(r, series);
@@ -146,6 +147,7 @@ void check_series_panel(ObjectReader& r, const SeriesPanel& panel) {
     if (!panel.sums.empty()) require_one_unit(r, "sums", summed);
     check_markup(r, "title", panel.title);
     check_markup(r, "label", panel.label);
+    check_markup(r, "right_label", panel.right_label);
     if (panel.low && panel.high && !(*panel.low < *panel.high)) r.reject("high", " must be above \"low\"");
     if (panel.logarithmic && panel.low && !(*panel.low > 0))
         r.reject("low", ": the lower end of a logarithmic axis must be positive");
@@ -157,6 +159,10 @@ void check_figure(ObjectReader& r, FigureOutput& figure) {
     if (!type) return;
     check_own_keys(r, *type);
     if (figure.figure == "series") check_series(r, figure);
+    if (type->takes("table") && !r.has("table"))
+        r.reject_object("table",
+                        " needs \"table\", for example {{\"file\": \"peaks.csv\", \"x\": \"cam.speed\", "
+                        "\"y\": [\"force_peak\"]}}");
     if (type->takes("from")) check_interval(r, figure);
     if (type->takes("window")) check_windows(r, figure);
     if (!r.has("figure") || r.diagnostics().any()) return;  // the next rules need a valid scene

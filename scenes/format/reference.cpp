@@ -7,6 +7,7 @@
 
 #include "scenes/format/absent.hpp"
 #include "scenes/format/description.hpp"
+#include "scenes/scene/pictures.hpp"
 #include "sim/observe/channels.hpp"
 
 namespace beamcam::scenes {
@@ -126,12 +127,19 @@ class Reference {
             scene_format().meaning +
             "\n\nA quantity may be a text with a unit: `\"12 mm\"`, `\"300 rpm\"`, `\"5 %\"`.\n";
         shape(scene_format(), "", "The scene");
+        events();
         channels();
         absent();
         return std::move(out_);
     }
 
   private:
+    void events() {
+        out_ +=
+            "\n## Events\n\nAn instant is a time, an event with its number from 1, `\"impact:3\"`, or `\"last\"`, the "
+            "end.\n\n| event | meaning |\n|---|---|\n";
+        for (const EventWord& event : kEventWords) out_ += fmt::format("| `{}:N` | {} |\n", event.word, event.meaning);
+    }
     void channels() {
         out_ +=
             "\n## Channels\n\nFunctions of time, for tables, films and figures; [sim/MODEL.md](../sim/MODEL.md) "

@@ -1,11 +1,13 @@
 // Writes a JSON Schema from the description of keys.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <map>
 #include <set>
 
 #include "render/film/layout.hpp"
 #include "scenes/format/description.hpp"
+#include "scenes/scene/pictures.hpp"
 #include "sim/observe/channels.hpp"
 
 namespace beamcam::scenes {
@@ -23,14 +25,6 @@ constexpr const char* kDefinitions = R"({
         "type": "string",
         "pattern": "^ *[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)? *%? *$"
     },
-    "instant": {
-        "description": "A time, or an event counted from 1: \"impact:2\" and \"collision:1\" are first touches, \"release:2\" is the release of an impact, \"apex:1\" is the highest point of the first rebound (without collisions the first maximum of the hub's angle). \"touch\" and \"release\" are the first ones; \"last\" is the end.",
-        "anyOf": [
-            {"type": "number", "minimum": 0},
-            {"$ref": "#/$defs/withUnit"},
-            {"type": "string", "pattern": "^((impact|collision|apex|touch|release|liftoff):[1-9][0-9]{0,8}|touch|release|liftoff|last)$"}
-        ]
-    },
     "anchor": {
         "description": "A part of the mechanism, or a place [x, y] of its plane.",
         "anyOf": [
@@ -39,6 +33,21 @@ constexpr const char* kDefinitions = R"({
         ]
     }
 })";
+
+Node instant_schema() {
+    std::vector<std::string_view> words, alone{"last"};
+    for (const EventWord& event : kEventWords) {
+        words.push_back(event.word);
+        if (event.alone) alone.push_back(event.word);
+    }
+    const std::string pattern =
+        fmt::format("^(({}):[1-9][0-9]{{0,8}}|{})$", fmt::join(words, "|"), fmt::join(alone, "|"));
+    return object_node({{"description", fmt::format("A time, \"last\" (the end), or an event, counted from 1: {}.",
+                                                    event_notations())},
+                        {"anyOf", array_node({object_node({{"type", "number"}, {"minimum", 0}}),
+                                              object_node({{"$ref", "#/$defs/withUnit"}}),
+                                              object_node({{"type", "string"}, {"pattern", pattern}})})}});
+}
 
 // A panel that needs only its name, or a channel in a strip.
 Node panel_schema() {
@@ -65,6 +74,7 @@ class SchemaWriter {
   public:
     Node write(const DescribedObject& format, const char* title) {
         definitions_ = node_of(kDefinitions);
+        add(definitions_, "instant", instant_schema());
         add(definitions_, "panelName", panel_schema());
         add(definitions_, "channel", channel_schema());
         object(format);  // first pass: counts repeated properties

@@ -32,6 +32,13 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     return d(a.size(), b.size());
 }
 
+// Whether the word is a part of a name between dots and underscores: "force" of "contact_force".
+bool is_part(const std::string& word, std::string name) {
+    for (char& c : name)
+        if (c == '.') c = '_';
+    return word.size() >= 3 && ("_" + name + "_").find("_" + word + "_") != std::string::npos;
+}
+
 }  // namespace
 
 std::string suggestion(std::string_view word, const std::vector<std::string>& known) {
@@ -47,7 +54,8 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& kn
         // "young" for "youngs_modulus": a prefix of at least three letters counts as one typing error.
         if (target.size() >= 3 && form.starts_with(target)) distance = std::min<std::size_t>(distance, 1);
         // "Mpa" is one letter from "MPa" and none from "mPa"; the case decides between equals.
-        const std::pair near{distance, edit_distance(word, candidate)};
+        std::pair near{distance, edit_distance(word, candidate)};
+        if (distance > 0 && is_part(std::string(word), candidate)) near = {1, 0};
         if (near < least) least = near, best.clear();
         if (near == least && std::ranges::find(best, candidate) == best.end()) best.push_back(candidate);
     }

@@ -105,6 +105,37 @@ ValueFormat quantities_format(std::vector<double>& values, DimensionOf dimension
             read, [&values] { return values.empty() ? Node() : Node(values); }};
 }
 
+ValueFormat unit_format(AxisUnit& unit, DimensionOf dimension) {
+    const auto read = [&unit, dimension = std::move(dimension)](ObjectReader& r, const Node& node,
+                                                                const std::string& key) {
+        const auto expected = dimension(r);
+        if (!expected) return;
+        const QuantityText one = parse_quantity("1 " + word_in(node), &*expected);
+        const std::string si = si_unit(*expected);
+        if (!one.quantity || !same(one.quantity->dimension, *expected))
+            return r.reject_value(node, key, " is not a unit of this axis, which shows {}{}",
+                                  si == "1" ? "plain numbers" : si, one.quantity ? "" : ": " + one.problem);
+        unit = {node.text, one.quantity->value};
+    };
+    return {"unit, such as \"kN\"", R"({"type": "string"})", read,
+            [&unit] { return unit.name.empty() ? Node() : Node(unit.name); }};
+}
+
+ValueFormat texts_format(std::vector<std::string>& texts) {
+    const auto read = [&texts](ObjectReader& r, const Node& node, const std::string& key) {
+        if (node.kind != Node::Kind::array) return r.expect(node, key, "{}", "an array of strings");
+        for (std::size_t i = 0; i < node.items.size(); ++i) {
+            const Node& each = node.items[i];
+            if (each.kind == Node::Kind::string)
+                texts.push_back(each.text);
+            else
+                r.expect(each, fmt::format("{}.{}", key, i), "{}", "a string");
+        }
+    };
+    return {"list of texts", R"({"type": "array", "items": {"type": "string"}})", read,
+            [&texts] { return Node(texts); }};
+}
+
 ValueFormat size_format(Size& size) {
     const auto write = [](const Size& one) { return array_node({one.width, one.height}); };
     return format_of(
@@ -148,11 +179,11 @@ std::optional<Instant> parse_event(std::string_view text) {
 std::optional<Instant> read_instant(ObjectReader& r, const Node& node, const std::string& key) {
     const std::string text = word_in(node);
     const auto begins = [&](const EventWord& event) { return text.starts_with(event.word); };
-    if (text.starts_with("last") || std::ranges::any_of(kEventWords, begins)) {
+    if (text.starts_with("last") || text.find(':') != text.npos || std::ranges::any_of(kEventWords, begins)) {
         const auto event = parse_event(text);
         if (!event)
-            r.reject_value(node, key,
-                           ": events are counted from 1: impact:1, collision:2, apex:1, release:3, liftoff:2, touch");
+            r.reject_value(node, key, " is no event; they are counted from 1, for example peak:1: {}",
+                           event_notations());
         return event;
     }
     const auto t = r.ranged_value(node, key, sim::dimension::kTime, kFromStart);
@@ -173,9 +204,8 @@ Node written(const Instant& at) {
 
 template <class Value>
 ValueFormat format_of_instant(Value& at) {
-    return format_of(
-        at, "time, \"impact:N\", \"collision:N\", \"apex:N\", \"touch\", \"release\", \"liftoff:N\" or \"last\"",
-        R"({"$ref": "#/$defs/instant"})", read_instant, written);
+    static const std::string type = fmt::format("time, \"last\", or an event: {}", event_notations());
+    return format_of(at, type.c_str(), R"({"$ref": "#/$defs/instant"})", read_instant, written);
 }
 
 template <class Time>  // double, or std::optional<double>

@@ -48,6 +48,9 @@ ValueFormat quantities_format(std::vector<double>& values, DimensionOf dimension
 // The dimension of the values of a channel.
 sim::Dimension dimension_of(const sim::Channel& channel, const sim::Problem& problem);
 DimensionOf dimension_of_first(const std::vector<sim::Channel>& channels);
+// The unit of an axis whose values have this dimension.
+ValueFormat unit_format(AxisUnit& unit, DimensionOf dimension);
+ValueFormat texts_format(std::vector<std::string>& texts);
 ValueFormat size_format(Size& size);
 ValueFormat frame_rate_format(FrameRate& rate);
 ValueFormat instant_format(Instant& at);

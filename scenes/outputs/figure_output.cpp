@@ -7,6 +7,7 @@
 #include "render/plot/style.hpp"
 #include "scenes/figures/figure_types.hpp"
 #include "scenes/format/checks.hpp"
+#include "scenes/format/plotted_table.hpp"
 #include "scenes/format/presets.hpp"
 #include "scenes/format/value_formats.hpp"
 #include "scenes/plan/planner.hpp"
@@ -40,6 +41,10 @@ static void visit(SceneVisitor& v, SeriesPanel& panel) {
             "Horizontal lines at these values of the left axis; plain numbers are in SI units.");
     v.text("label", panel.label,
            "Label of the left axis, without the unit; by default the symbols of the channels; $v_{1}$ is a formula.");
+    v.value("unit", unit_format(panel.unit, of_axis),
+            "Unit of the left axis: \"MPa\", \"deg\"; by default that of the scene, or SI with a prefix.");
+    v.text("right_label", panel.right_label, "Label of the right axis.");
+    v.value("right_unit", unit_format(panel.right_unit, dimension_of_first(panel.right)), "Unit of the right axis.");
     v.text("title", panel.title, "Title above the panel; $θ$ is a formula.");
     v.check([&panel](ObjectReader& r) { check_series_panel(r, panel); });
 }
@@ -48,6 +53,21 @@ static void visit(SceneVisitor& v, SeriesNote& note) {
     v.value(sim::required("at", "\"impact:1\""), instant_format(note.at), "The instant.");
     v.text("text", note.text, "Text beside the line, in the first panel; $θ$ is a formula.");
     v.check([&note](ObjectReader& r) { check_markup(r, "text", note.text); });
+}
+
+static void visit(SceneVisitor& v, PlottedTable& table) {
+    const std::string unit =
+        "columns whose unit is known by their heading or name are converted, others are taken to be in it.";
+    v.text(sim::required("file", "\"peaks.csv\""), table.file,
+           "A .csv or .npz file, of beamcam or of other programs; its path is relative to the scene's folder.");
+    v.text(sim::required("x", "\"cam.speed\""), table.x, "The column of the abscissa.");
+    v.value(sim::required("y", "[\"force_peak\"]"), texts_format(table.y),
+            "The columns that are drawn, with one panel for each unit.");
+    v.text("label", table.label, "Label of the ordinate, without the unit; by default the names of the columns.");
+    v.text("unit", table.unit, ("Unit of the ordinate, \"kN\": " + unit).c_str());
+    v.text("x_label", table.x_label, "Label of the abscissa, without the unit.");
+    v.text("x_unit", table.x_unit, ("Unit of the abscissa, \"rpm\": " + unit).c_str());
+    v.check([&table](ObjectReader& r) { read_plotted_table(r, table); });
 }
 
 // A key of figures; only those that have it write it.
@@ -66,6 +86,9 @@ static void visit_abscissa(SceneVisitor& v, SeriesKeys& series, const KeyOfFigur
             "In \"series\": lower end of the abscissa; a plain number is in SI units, or in turns.");
     v.value(key("x_high"), quantity_format(series.x_high, of_abscissa),
             "In \"series\": upper end of the abscissa; a plain number is in SI units, or in turns.");
+    v.text(key("x_label"), series.x_label, "In \"series\": label of the abscissa, without the unit; $t$ is a formula.");
+    v.value(key("x_unit"), unit_format(series.x_unit, of_abscissa),
+            "In \"series\": unit of the abscissa: \"ms\", \"deg\"; by default that of the scene, or SI with a prefix.");
 }
 
 // The part of the motion.
@@ -146,6 +169,7 @@ void FigureOutput::visit(SceneVisitor& v) {
     v.value("data", file_format(data_file, {".csv"}), "File for the numbers of the figure; by default none.");
     visit_series(v, series, figure);
     const FigureType* type = figure_type(figure);
+    v.object(sim::written_if(type && type->takes("table"), "table"), table, "In \"table\": the file and its columns.");
     v.text(sim::written_if(type && type->takes("value"), "value"), value,
            "In \"bifurcation\": the column of the samples, by default \"v_n_before\" or \"theta\". In \"map\" and "
            "\"basins\": \"class\", \"exponent\", \"impacts_per_period\", or a column, whose mean is shown.");

@@ -13,22 +13,26 @@
 namespace beamcam::scenes {
 namespace {
 
-bool is_apex(const std::optional<Instant>& at) { return at && at->kind == Instant::Kind::apex; }
-
 // ---- searches ----------------------------------------------------------------------------------
 
 // A run of one motion that finds events.
 struct Search {
     double until = 0;                                 // at most [s]
     bool whole = false;                               // it does not end at the events below
-    bool apexes = false;                              // they are among the events
     std::vector<std::optional<Instant>> bounds = {};  // the events at which outputs begin and end
+    std::vector<Instant> others = {};                 // further events of outputs
 
+    std::vector<Instant> events() const {
+        std::vector<Instant> all = others;
+        for (const auto& each : bounds)
+            if (each) all.push_back(*each);
+        return all;
+    }
     void add(const Search& other) {
         until = std::max(until, other.until);
         whole = whole || other.whole;
-        apexes = apexes || other.apexes;
         bounds.insert(bounds.end(), other.bounds.begin(), other.bounds.end());
+        others.insert(others.end(), other.others.begin(), other.others.end());
     }
 };
 
@@ -55,7 +59,9 @@ std::optional<sim::EventCounts> enough_for(const Search& search) {
             case Instant::Kind::collision:
                 raise(enough.collisions, each->number);
                 break;
+            case Instant::Kind::peak:
             case Instant::Kind::liftoff:
+            case Instant::Kind::bend:
             case Instant::Kind::apex:
                 raise(enough.collisions, each->number + 1);
                 break;
@@ -64,10 +70,11 @@ std::optional<sim::EventCounts> enough_for(const Search& search) {
     return enough.touches + enough.releases + enough.collisions > 0 ? std::optional(enough) : std::nullopt;
 }
 
-sim::Result run(const Search& search, const sim::Problem& problem, const FindEvents& find) {
+// `scene_end` [s]
+sim::Result run(const Search& search, double scene_end, const sim::Problem& problem, const FindEvents& find) {
     sim::Request request;
     request.end_time = search.until;
-    request.apexes = search.apexes;
+    for (const Instant& each : search.events()) record_event(each, scene_end, request);
     request.enough = enough_for(search);
     sim::Result found = find(problem, request);
     const auto lacks = [&](const std::optional<Instant>& at) { return at && !find_instant(*at, found); };
@@ -82,7 +89,6 @@ Search search_of(const FigureOutput& how, const Scene& scene) {
     const SeriesKeys& keys = how.series;
     Search search{.until = keys.to.value_or(scene.end_time), .whole = !keys.to_event && !keys.at};
     search.bounds = {keys.from_event, keys.to_event, keys.at};
-    search.apexes = std::ranges::any_of(search.bounds, is_apex);
     return search;
 }
 
@@ -126,8 +132,8 @@ Search search_of(const PictureOutput& p, const Scene& scene) {
     for (const Keyframe& key : p.view.keyframes) named.push_back(key.at);
     return {.until = end_of(p, scene),
             .whole = !ends_at_event(p),
-            .apexes = std::ranges::any_of(named, is_apex),
-            .bounds = {p.span.from_event, p.span.to_event}};
+            .bounds = {p.span.from_event, p.span.to_event},
+            .others = std::move(named)};
 }
 
 // Poses per second of a page between two times [s]: `fps`, or more for a short motion.
@@ -163,11 +169,11 @@ ResolvedOutput resolved_picture(std::size_t index, PictureOutput p, const Scene&
 ResolvedOutput resolved_comparison(std::size_t index, const PictureOutput& p, const Scene& scene,
                                    const FindEvents& find) {
     Search search = search_of(p, scene);
-    const sim::Result first = run(search, p.compare.front().problem, find);
+    const sim::Result first = run(search, scene.end_time, p.compare.front().problem, find);
     std::vector<sim::Impact> all = first.impacts;
     const double end = ends_at_event(p) ? instant_of(*p.span.to_event, first) : search.until;
     for (std::size_t i = 1; i < p.compare.size(); ++i) {
-        const sim::Result other = run({.until = end, .whole = true}, p.compare[i].problem, find);
+        const sim::Result other = run({.until = end, .whole = true}, end, p.compare[i].problem, find);
         all.insert(all.end(), other.impacts.begin(), other.impacts.end());
     }
     std::ranges::stable_sort(all, {}, &sim::Impact::t_start);
@@ -191,7 +197,7 @@ class OwnEvents {
         }
     }
     const sim::Result& get() {
-        if (!found_) found_ = run(search_, scene_.problem, find_);
+        if (!found_) found_ = run(search_, scene_.end_time, scene_.problem, find_);
         return *found_;
     }
 
@@ -252,9 +258,10 @@ bool is_slow_motion(const PictureOutput& p, double end_time) {
 FigureOutput resolved(const FigureOutput& how, const Scene& scene, const FindEvents& find) {
     if (!how.series.needs_events()) return with_times_of(how, {}, scene.end_time);
     const std::vector<Compared>& compare = how.series.compare;
-    return with_times_of(how,
-                         run(search_of(how, scene), compare.empty() ? scene.problem : compare.front().problem, find),
-                         scene.end_time);
+    return with_times_of(
+        how,
+        run(search_of(how, scene), scene.end_time, compare.empty() ? scene.problem : compare.front().problem, find),
+        scene.end_time);
 }
 
 ResolvedScene resolve(const Scene& scene, const std::set<std::size_t>& without, const FindEvents& find,

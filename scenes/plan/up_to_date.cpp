@@ -79,7 +79,7 @@ std::string inputs_key(const Scene& scene, std::size_t output, const std::string
     for (const Measurement& each : inputs.data) other += "\n" + each.digest;
     if (figure) {  // not part of the scene
         const char* epoch = figure->file.ends_with(".png") ? nullptr : std::getenv("SOURCE_DATE_EPOCH");
-        other += fmt::format("\n{}", epoch ? epoch : "");
+        other += fmt::format("\n{}{}", epoch ? epoch : "", figure->table.digest);
     }
     return output::sha256(fmt::format("inputs\n{}\n{}\n{}", program_identity(), other, metadata_json(inputs)));
 }

@@ -5,6 +5,7 @@
 
 #include "scenes/format/description.hpp"
 #include "scenes/format/object_reader.hpp"
+#include "scenes/format/value_formats.hpp"
 #include "scenes/regression/baselines.hpp"
 
 namespace beamcam::scenes {
@@ -14,21 +15,6 @@ namespace {
 ValueFormat node_format(Node& value, const char* type, const char* schema) {
     return {type, schema, [&value](ObjectReader&, const Node& node, const std::string&) { value = node; },
             [&value] { return value; }};
-}
-
-ValueFormat texts_format(std::vector<std::string>& texts) {
-    const auto read = [&texts](ObjectReader& r, const Node& node, const std::string& key) {
-        if (node.kind != Node::Kind::array) return r.expect(node, key, "{}", "an array of strings");
-        for (std::size_t i = 0; i < node.items.size(); ++i) {
-            const Node& each = node.items[i];
-            if (each.kind == Node::Kind::string)
-                texts.push_back(each.text);
-            else
-                r.expect(each, fmt::format("{}.{}", key, i), "{}", "a string such as \"cam.speed=5\"");
-        }
-    };
-    return {"list of texts", R"({"type": "array", "items": {"type": "string"}})", read,
-            [&texts] { return Node(texts); }};
 }
 
 NamedItems named_entries(std::vector<Baseline>& entries) {

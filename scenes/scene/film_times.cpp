@@ -140,7 +140,7 @@ void find_unreached_collisions(const FrameSpan& span, double to, const sim::Resu
     if (!span.speed.around) return;
     for (const double number : span.speed.around->collisions) {
         const bool slow = std::ranges::any_of(slowed, [&](const sim::Impact& i) {
-            return i.collision + 1 == number && i.t_start <= to && i.t_end.value_or(to) >= span.from;
+            return i.collision == number && i.t_start <= to && i.t_end.value_or(to) >= span.from;
         });
         if (slow) continue;
         const Instant collision{.kind = Instant::Kind::collision, .number = static_cast<int>(number)};

@@ -105,6 +105,25 @@ struct SweepOutput {
 
     void visit(SceneVisitor& v);
 };
+// The unit of an axis by its name, and its size in SI units; without a name the values choose it.
+struct AxisUnit {
+    std::string name = {};  // "kN"
+    double si = 1;          // 1000
+};
+// Columns of a table over another one, in the figure "table".
+struct PlottedTable {
+    struct Column {
+        std::string name, unit;
+        bool prefixed = false;  // the unit is an SI unit that the values may give a prefix
+        std::vector<double> values = {};
+    };
+    std::string file, x;
+    std::vector<std::string> y = {};
+    std::string label = {}, x_label = {}, unit = {}, x_unit = {};  // empty: those of the columns
+    // Read from the file: x, then y.
+    std::vector<Column> columns = {};
+    std::string digest = {};
+};
 // A curve that is a sum of channels of one unit; channels without values add nothing.
 struct SeriesSum {
     std::string label;
@@ -117,7 +136,8 @@ struct SeriesPanel {
     bool logarithmic = false;
     std::optional<double> low = {}, high = {};  // of the left axis, in SI units
     std::vector<double> lines = {};             // horizontal, at these values of the left axis
-    std::string label = {};                     // of the left axis, without unit; empty: the channels' symbols
+    std::string label = {}, right_label = {};   // of the axes, without unit; empty: the channels' symbols
+    AxisUnit unit = {}, right_unit = {};
     std::string title = {};
 };
 // A vertical line with a text.
@@ -128,8 +148,10 @@ struct SeriesNote {
 // The keys of the figure "series".
 struct SeriesKeys {
     std::vector<SeriesPanel> panels = {};
-    std::string against = "t";                              // "t", "turns" of the cam, "frequency", or a channel
-    std::optional<double> x_low = {}, x_high = {};          // ends of the abscissa; SI units or turns
+    std::string against = "t";                      // "t", "turns" of the cam, "frequency", or a channel
+    std::optional<double> x_low = {}, x_high = {};  // ends of the abscissa; SI units or turns
+    std::string x_label = {};                       // without unit; empty: the symbol
+    AxisUnit x_unit = {};
     double from = 0;                                        // [s]
     std::optional<double> to = {};                          // [s]; nullopt: the end of the scene
     std::optional<Instant> from_event = {}, to_event = {};  // in place of `from` and `to`
@@ -160,6 +182,7 @@ struct FigureOutput {
     bool serif = false;  // serif font, as in LaTeX documents
     bool dark = false;   // dark theme, for slides
     SeriesKeys series;
+    PlottedTable table = {};
     std::string value = {};               // column of a sweep's diagram; empty: default
     std::string data_file, caption_file;  // empty: none
 

@@ -20,10 +20,9 @@ struct Size {
     bool operator==(const Size&) const = default;
 };
 
-// An instant of the motion: a time, the end, or an event counted from 1: the first touch of an impact or a collision,
-// the release of an impact, the apex of a rebound (the largest hub angle between two collisions).
+// An instant of the motion: a time, the end, or an event counted from 1.
 struct Instant {
-    enum class Kind { time, last, impact, collision, release, liftoff, apex };
+    enum class Kind { time, last, impact, release, collision, peak, liftoff, bend, apex };
     Kind kind = Kind::time;
     double t = 0;    // [s], >= 0
     int number = 1;  // of the event
@@ -35,15 +34,25 @@ struct Instant {
 struct EventWord {
     std::string_view word;  // singular
     Instant::Kind kind;
+    std::string_view meaning;
     bool alone = false;  // valid without a number, for the first event
 };
-inline constexpr EventWord kEventWords[] = {{"impact", Instant::Kind::impact},
-                                            {"collision", Instant::Kind::collision},
-                                            {"apex", Instant::Kind::apex},
-                                            {"release", Instant::Kind::release, true},
-                                            {"liftoff", Instant::Kind::liftoff, true},
-                                            {"touch", Instant::Kind::impact, true}};
+inline constexpr EventWord kEventWords[] = {
+    {"impact", Instant::Kind::impact, "The first touch of an impact."},
+    {"release", Instant::Kind::release, "The end of an impact; `release` is the first.", true},
+    {"collision", Instant::Kind::collision,
+     "The first touch of a collision: impacts that are closer than `contact.collision_gap` are one."},
+    {"peak", Instant::Kind::peak, "The largest contact force of a collision."},
+    {"liftoff", Instant::Kind::liftoff, "The end of a collision, after its last impact; `liftoff` is the first.", true},
+    {"bend", Instant::Kind::bend,
+     "The largest deflection of the tip, to either side, from the beginning of a collision to that of the next, or to "
+     "the end of the scene."},
+    {"apex", Instant::Kind::apex,
+     "The largest θ of a rebound: between two collisions, or after the last one if θ decreases before the end; without "
+     "collisions, maxima of θ."},
+    {"touch", Instant::Kind::impact, "The same as `impact`; `touch` is the first.", true}};
 std::string name_of(const Instant& at);  // "impact 3", "0.2 s"
+std::string event_notations();           // "impact:N, release:N, …"
 
 // The playback speed of a film.
 struct SlowMotion {

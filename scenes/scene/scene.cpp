@@ -80,6 +80,12 @@ std::string name_of(const Instant& at) {
     return at.kind == Instant::Kind::last ? "the end" : fmt::format("{:g} s", at.t);
 }
 
+std::string event_notations() {
+    std::string text;
+    for (const EventWord& each : kEventWords) text += fmt::format("{}{}:N", text.empty() ? "" : ", ", each.word);
+    return text;
+}
+
 std::vector<Instant> FrameSpan::instants() const {
     std::vector<Instant> all;
     for (const FilmEvent& event : events) all.push_back(event.at);

@@ -28,7 +28,7 @@ TimeMap::TimeMap(double from, double to, const Speed& speed, const std::vector<s
         const SlowMotion& slow = *speed.around;
         for (const sim::Impact& impact : impacts) {
             if (!slow.collisions.empty() &&
-                std::ranges::find(slow.collisions, impact.collision + 1) == slow.collisions.end())
+                std::ranges::find(slow.collisions, impact.collision) == slow.collisions.end())
                 continue;
             const Span span{impact.t_start - slow.before,
                             impact.t_end.value_or(std::max(to, impact.t_start)) + slow.after, slow.factor, slow.ease,
@@ -162,6 +162,13 @@ double TimeMap::film_time(double t) const {
     return film;
 }
 
+void record_event(const Instant& event, double scene_end, sim::Request& request) {
+    request.apexes = request.apexes || event.kind == Instant::Kind::apex;
+    if (event.kind != Instant::Kind::bend) return;
+    request.bends = true;
+    request.end_time = std::max(request.end_time, scene_end);
+}
+
 std::optional<double> find_instant(const Instant& instant, const sim::Result& motion) {
     const auto pick = [&](const auto& all, auto time) -> std::optional<double> {
         if (instant.number < 1 || std::cmp_greater(instant.number, all.size())) return std::nullopt;
@@ -176,6 +183,10 @@ std::optional<double> find_instant(const Instant& instant, const sim::Result& mo
             return pick(motion.impacts, &sim::Impact::t_start);
         case Instant::Kind::collision:
             return pick(motion.collisions, &sim::Collision::t_start);
+        case Instant::Kind::peak:
+            return pick(motion.collisions, &sim::Collision::t_peak);
+        case Instant::Kind::bend:
+            return pick(motion.collisions, &sim::Collision::t_bend);
         case Instant::Kind::release:
             return pick(motion.impacts, &sim::Impact::t_end);
         case Instant::Kind::liftoff:
@@ -188,14 +199,18 @@ std::optional<double> find_instant(const Instant& instant, const sim::Result& mo
 
 double instant_of(const Instant& instant, const sim::Result& motion) {
     if (const auto t = find_instant(instant, motion)) return *t;
-    const auto ended = [](const auto& all) {
-        return static_cast<std::size_t>(std::ranges::count_if(all, [](const auto& i) { return i.t_end.has_value(); }));
-    };
-    const std::size_t count = instant.kind == Instant::Kind::apex        ? sim::rebounds(motion).size()
-                              : instant.kind == Instant::Kind::collision ? motion.collisions.size()
-                              : instant.kind == Instant::Kind::release   ? ended(motion.impacts)
-                              : instant.kind == Instant::Kind::liftoff   ? ended(motion.collisions)
-                                                                         : motion.impacts.size();
+    std::size_t count = 0;
+    for (Instant each{.kind = instant.kind}; each.number < instant.number && find_instant(each, motion); ++each.number)
+        ++count;
+    if (std::cmp_less_equal(instant.number, motion.collisions.size())) {
+        if (instant.kind == Instant::Kind::peak)
+            throw render::PictureError(fmt::format(
+                "{} does not occur: this collision is a pure impulse, without a finite force; take \"collision:{}\"",
+                name_of(instant), instant.number));
+        if (instant.kind == Instant::Kind::bend)
+            throw render::PictureError(
+                fmt::format("{} does not occur: the beam does not bend; choose another beam.model", name_of(instant)));
+    }
     throw render::PictureError(
         fmt::format("{} does not occur: the motion has {} of them until {:g} s; a larger time.end, or \"to\" of a "
                     "film, may have more",

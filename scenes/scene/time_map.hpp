@@ -56,6 +56,8 @@ class TimeMap {
 // nullopt, and instant_of throws render::PictureError with the number of events.
 std::optional<double> find_instant(const Instant& instant, const sim::Result& motion);
 double instant_of(const Instant& instant, const sim::Result& motion);
+// Adds what finds this event to a request. `scene_end`: end of the scene [s], where the last bend ends.
+void record_event(const Instant& event, double scene_end, sim::Request& request);
 
 // Replaces events at the ends of a span by their times.
 template <class Span>

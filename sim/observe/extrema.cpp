@@ -56,11 +56,11 @@ void ExtremaFinder::contact_peaks(const SegmentInterval& s, ImpactPeaks& peaks) 
     });
     for (std::size_t c = 0; c < all.size(); ++c) {
         const double sign = c == 0 ? 1 : -1;
-        Best best{s.from, before[c]};
+        Best best{c == 0 ? peaks.t_force.value_or(s.from) : s.from, before[c]};
         for (std::size_t k = 0; k < all[c].t.size(); ++k) best.offer(all[c].t[k], sign * all[c].value[k]);
         raise(all[c], kChannelsOfContact[c], sign, kNegligibleRise * best.value, best);
         if (c == 0)
-            peaks.force = best.value;
+            peaks.force = best.value, peaks.t_force = best.t;
         else
             peaks.penetration = best.value;
     }

@@ -27,13 +27,14 @@ void ImpactRecorder::touch(double t, const double* y, const ContactState& c) {
     impact.v_t_before = c.slip;
     impact.penetration_peak = std::max(0.0, -c.gap);
     impact.at_touch = touch_state(t, y, c);
-    if (evaluator_.system().problem().contact.model == ContactModel::compliant) impact.force_peak = c.force;
+    if (evaluator_.system().problem().contact.model == ContactModel::compliant)
+        impact.force_peak = c.force, impact.t_peak = t;
     Collision& collision = collision_of(t, c);
     ++collision.count;
     collision.t_end.reset();
     collision.v_n_after.reset();
     collision.restitution.reset();
-    impact.collision = static_cast<int>(result_.collisions.size()) - 1;
+    impact.collision = static_cast<int>(result_.collisions.size());
     result_.impacts.push_back(impact);
 }
 
@@ -83,7 +84,8 @@ void ImpactRecorder::settle(const double* y) {
     impact.impulse_n = ledger[kImpulseN] - impulse_n_at_touch_;
     impact.impulse_t = ledger[kImpulseT] - impulse_t_at_touch_;
     impact.energy_lost = ledger[kNormalWork] + ledger[kFrictionWork] - lost_at_touch_;
-    if (impact.force_peak) collision.force_peak = std::max(collision.force_peak.value_or(0), *impact.force_peak);
+    if (impact.force_peak > collision.force_peak)
+        collision.force_peak = impact.force_peak, collision.t_peak = impact.t_peak;
     collision.energy_lost += impact.energy_lost;
 }
 

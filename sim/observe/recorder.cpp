@@ -13,6 +13,9 @@
 
 namespace beamcam::sim {
 
+static constexpr Extremum kNoValue{std::numeric_limits<double>::infinity(), 0, -std::numeric_limits<double>::infinity(),
+                                   0};
+
 double end_of(const Request& request) {
     double end = request.end_time;
     const auto extend = [&](const std::vector<double>& times) {
@@ -33,10 +36,11 @@ Recorder::Recorder(const System& system, const Request& request, SharedSamples* 
       impacts_(evaluator_, result_),
       extrema_(std::make_unique<ExtremaFinder>(system, request.extrema)),
       y_(static_cast<std::size_t>(system.size)) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    if (request.bends && system.problem().beam.model != ModelKind::rigid)
+        bends_ = std::make_unique<ExtremaFinder>(system, std::vector<Channel>{{ChannelKind::tip_deflection}});
     if (request.impact_peaks) summary_.impact.emplace();
     result_.states.resize(request.states.size());
-    result_.extrema.assign(request.extrema.size(), {kInfinity, 0, -kInfinity, 0});
+    result_.extrema.assign(request.extrema.size(), kNoValue);
 }
 
 Recorder::~Recorder() = default;
@@ -62,6 +66,7 @@ bool Recorder::has_enough() const {
 void Recorder::set_phase(const Phase& phase) {
     evaluator_.set_phase(phase);
     extrema_->set_phase(phase);
+    if (bends_) bends_->set_phase(phase);
 }
 
 // Each part starts its search of the contact afresh, so that none depends on what another evaluated: the last bits of a
@@ -79,10 +84,12 @@ void Recorder::record(const SegmentInterval& s, const SegmentSummary* known) {
         record_balance(s);
     if (Impact* impact = impacts_.open()) {
         if (lasts) find_peaks(s, known);
-        impact->force_peak = summary_.impact ? summary_.impact->force : std::nullopt;
-        impact->penetration_peak = summary_.impact ? summary_.impact->penetration : kNan;
+        const ImpactPeaks peaks = summary_.impact.value_or(ImpactPeaks{.penetration = kNan});
+        impact->force_peak = peaks.force, impact->t_peak = peaks.t_force;
+        impact->penetration_peak = peaks.penetration;
     }
     if (lasts) extrema_->step(s, result_.extrema);
+    if (lasts && bends_ && !result_.collisions.empty()) find_bend(s);
 }
 
 void Recorder::take_states(const SegmentInterval& s) {
@@ -101,6 +108,12 @@ void Recorder::find_peaks(const SegmentInterval& s, const SegmentSummary* known)
         summary_.impact = known->impact;
     else
         extrema_->contact_peaks(s, *summary_.impact);
+}
+
+void Recorder::find_bend(const SegmentInterval& s) {
+    bends_->step(s, bend_);
+    if (const Extremum& e = bend_.front(); e.max > e.min)
+        result_.collisions.back().t_bend = e.max >= -e.min ? e.t_max : e.t_min;
 }
 
 void Recorder::find_events(const SegmentInterval& s, const SegmentSummary* known) {
@@ -135,9 +148,12 @@ void Recorder::record_balance(const SegmentInterval& s) {
 }
 
 void Recorder::touch(double t, const double* y, const ContactState& contact) {
+    const std::size_t before = result_.collisions.size();
     impacts_.touch(t, y, contact);
+    if (result_.collisions.size() > before) bend_ = {kNoValue};
     samples_.begin_contact();
-    if (summary_.impact) summary_.impact = {impacts_.open()->force_peak, impacts_.open()->penetration_peak};
+    if (const Impact& impact = *impacts_.open(); summary_.impact)
+        summary_.impact = {impact.force_peak, impact.t_peak, impact.penetration_peak};
 }
 
 void Recorder::finish(double t, const double* y, const RunStatistics& statistics) {

@@ -39,6 +39,7 @@ class Recorder {
   private:
     void take_states(const SegmentInterval& s);
     void find_peaks(const SegmentInterval& s, const SegmentSummary* known);
+    void find_bend(const SegmentInterval& s);  // of the present collision
     void find_events(const SegmentInterval& s, const SegmentSummary* known);
     void note_balance();
     void record_balance(const SegmentInterval& s);
@@ -49,7 +50,8 @@ class Recorder {
     ChannelEvaluator evaluator_;
     SampleRecorder samples_;
     ImpactRecorder impacts_;
-    std::unique_ptr<ExtremaFinder> extrema_;
+    std::unique_ptr<ExtremaFinder> extrema_, bends_;  // bends_: null unless requested
+    std::vector<Extremum> bend_;                      // of the tip's deflection since the last collision began
     SegmentSummary summary_;
     std::vector<double> y_;
     double start_total_ = 0;

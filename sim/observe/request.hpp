@@ -50,6 +50,7 @@ struct Request {
     std::vector<PointRequest> points;
     std::vector<Channel> extrema;                 // by samples of each step, refined on its dense output
     bool apexes = false, zero_crossings = false;  // of θ; each searches every ripple of the hub
+    bool bends = false;                           // Collision::t_bend
     bool impact_peaks = true;                     // the largest force and penetration of each impact
     std::vector<double> states;                   // [s]: Result::states at these times
     bool horizon = false;  // intervals in which θ is reproducible (horizon.hpp); costs a second run

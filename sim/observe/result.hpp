@@ -28,11 +28,12 @@ struct Impact {
     std::optional<double> v_n_after, v_t_after;  // at release [m/s]
     std::optional<double> duration;              // [s]
     std::optional<double> force_peak;            // [N]; absent: a pure impulse has no finite force; or not requested
+    std::optional<double> t_peak;                // of that force [s]
     double penetration_peak = 0;                 // [m]; NaN: not requested
     double impulse_n = 0, impulse_t = 0;         // [N s]
     std::optional<double> restitution;           // −v_n_after / v_n_before
     double energy_lost = 0;                      // contact + friction losses between touch and release [J]
-    int collision = 0;                           // 0-based index into the collisions
+    int collision = 0;                           // its number among the collisions, from 1
     std::optional<TouchState> at_touch;          // before the impulse, if there is one; absent: not kept
     std::optional<TouchState> at_release;        // after it
 };
@@ -46,6 +47,10 @@ struct Collision {
     std::optional<double> v_n_after, restitution;
     std::optional<double> force_peak;  // [N]
     double energy_lost = 0;
+    std::optional<double> t_peak = {};  // of the force [s]
+    // Of the largest deflection of the tip, to either side, until the next collision or the end of the run [s]; absent:
+    // the beam does not bend, or Request::bends is not set.
+    std::optional<double> t_bend = {};
 };
 
 struct ZeroCrossing {

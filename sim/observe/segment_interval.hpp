@@ -19,8 +19,8 @@ struct SegmentInterval {
 
 // Largest values up to the end of an interval: of the open impact, and of the whole run.
 struct ImpactPeaks {
-    decltype(Impact::force_peak) force{};  // [N]
-    double penetration = 0;                // [m]
+    decltype(Impact::force_peak) force{}, t_force{};  // [N], [s]
+    double penetration = 0;                           // [m]
 };
 struct RunPeaks {
     double energy_scale = 0, energy_residual_max = 0, largest_elastic = 0;  // [J]; the last: of the bending energy

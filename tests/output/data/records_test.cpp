@@ -16,7 +16,7 @@ sim::Result one_collision() {
     closed.v_n_before = -2, closed.v_n_after = 1.4, closed.v_t_after = 0.0, closed.restitution = 0.7;
     sim::Impact open;
     open.t_start = 1.25;
-    open.collision = 1;
+    closed.collision = 1, open.collision = 2;
     result.impacts = {closed, open};
     result.collisions = {sim::Collision{0.25, 0.375, 1, 0.1, -2, 1.4, 0.7, 0, 0}, sim::Collision{}};
     result.theta_zero = {{0.369993889, -5.5}};
@@ -43,7 +43,7 @@ TEST(ImpactsJson, HasTheNamesInTheirOrderAndNullWhereUndefined) {
       "impulse_t": 0.0,
       "restitution": null,
       "energy_lost": 0.0,
-      "collision": 1
+      "collision": 2
     })"),
               std::string::npos)
         << json;
@@ -80,8 +80,8 @@ TEST(ImpactsCsv, HasTheSameNamesAndEmptyCells) {
         read_file(scratch / "i.csv"),
         "t_start,t_end,x,cam_angle,v_n_before,v_t_before,v_n_after,v_t_after,duration,force_peak,penetration_peak,"
         "impulse_n,impulse_t,restitution,energy_lost,collision\n"
-        "0.25,0.375,0.10000000000000001,0,-2,0,1.3999999999999999,0,0.125,,0,0,0,0.69999999999999996,0,0\n"
-        "1.25,,0,0,0,0,,,,,0,0,0,,0,1\n");
+        "0.25,0.375,0.10000000000000001,0,-2,0,1.3999999999999999,0,0.125,,0,0,0,0.69999999999999996,0,1\n"
+        "1.25,,0,0,0,0,,,,,0,0,0,,0,2\n");
 }
 
 TEST(Impacts, AreWrittenByTheirEnding) {

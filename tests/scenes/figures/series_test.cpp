@@ -391,7 +391,9 @@ TEST(Series, OptionsAreKeysOfTheScene) {
     EXPECT_THAT(compared, HasSubstr("\"speed\": 5.0"));
     const Finished wrong = shell(folder, command + "--channels thetta -o c.png");
     EXPECT_EQ(wrong.code, 2);
-    EXPECT_THAT(wrong.err, HasSubstr("channels.0 = \"thetta\" is not a channel; did you mean \"theta\"?"));
+    EXPECT_THAT(wrong.err, HasSubstr("--channels = \"thetta\" is not a channel; did you mean \"theta\"?"));
+    EXPECT_THAT(shell(folder, command + "--channels force -o c.png").err,
+                HasSubstr("did you mean \"contact_force\" or \"friction_force\" or \"pivot_force\"?"));
     EXPECT_EQ(shell(folder, command + "--channels theta --from 0.5 -o c.png").code, 2);
     EXPECT_EQ(shell(folder, command + "phase --channels theta -o c.png").code, 2);
     EXPECT_EQ(shell(folder, command + "series -o c.png").code, 2);

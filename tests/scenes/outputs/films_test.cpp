@@ -158,7 +158,8 @@ TEST(Films, AnEventThatDoesNotHappenIsRefusedWithTheCount) {
                 HasSubstr("release 1 does not occur: the motion has 0"));
     const Finished wrong = shell(folder, "$BEAMCAM render s.json -o x.png --at impact:0");
     EXPECT_EQ(wrong.code, 2);
-    EXPECT_THAT(wrong.err, HasSubstr("events are counted from 1"));
+    EXPECT_THAT(wrong.err, HasSubstr("is no event; they are counted from 1"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM render s.json -o x.png --at peek:1").err, HasSubstr("impact:N, release:N"));
 }
 
 // A time may be after the end of the scene, which extends the motion; a slip of the unit is then noticed.

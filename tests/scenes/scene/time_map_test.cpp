@@ -1,5 +1,6 @@
 #include "scenes/scene/time_map.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,6 +31,27 @@ TEST(Instants, AnUnfinishedRiseHasNoApex) {
     EXPECT_EQ(find_instant(second, motion), 0.6);
     motion.end_theta = 1.1;
     EXPECT_FALSE(find_instant(second, motion));
+}
+
+TEST(Instants, OfCollisionsThatHaveNoneSayWhy) {
+    sim::Result motion;
+    motion.collisions.resize(2);
+    motion.collisions[1].t_peak = 0.5, motion.collisions[1].t_bend = 0.6;
+    const auto told = [&](Instant::Kind kind, int number) -> std::string {
+        try {
+            return std::to_string(instant_of({.kind = kind, .number = number}, motion));
+        } catch (const render::PictureError& error) {
+            return error.what();
+        }
+    };
+    EXPECT_EQ(told(Instant::Kind::peak, 2), "0.500000");
+    EXPECT_EQ(told(Instant::Kind::bend, 2), "0.600000");
+    EXPECT_THAT(told(Instant::Kind::peak, 1),
+                ::testing::HasSubstr("a pure impulse, without a finite force; take \"collision:1\""));
+    EXPECT_THAT(told(Instant::Kind::bend, 1),
+                ::testing::HasSubstr("the beam does not bend; choose another beam.model"));
+    EXPECT_THAT(told(Instant::Kind::collision, 3),
+                ::testing::HasSubstr("collision 3 does not occur: the motion has 2 of them"));
 }
 
 TEST(TimeMap, AConstantSpeedIsALine) {
@@ -63,7 +85,7 @@ TEST(TimeMap, RunsAtTheFactorFromBeforeTheTouchUntilAfterTheRelease) {
 
 TEST(TimeMap, ChosenCollisionsAloneAreSlow) {
     std::vector<sim::Impact> impacts = kImpacts;
-    impacts[2].collision = 1;
+    impacts[2].collision = 2;
     Speed speed = kSlow;
     speed.around->collisions = {2};
     const TimeMap map(0, 1, speed, impacts);
@@ -217,7 +239,7 @@ TEST(FilmTimes, AStillOfAnImpactHasChartsToTheEndOfItsCollision) {
         sim::Impact& next = motion.impacts.emplace_back();
         next.t_start = from, next.t_end = to, next.collision = collision;
     };
-    add(0.300, 0.301, 0), add(0.305, 0.306, 0), add(0.600, 0.601, 1);
+    add(0.300, 0.301, 1), add(0.305, 0.306, 1), add(0.600, 0.601, 2);
     const FilmTimes of_impact = still_times({.kind = Instant::Kind::impact, .number = 1}, motion, 1);
     EXPECT_EQ(of_impact.frames, std::vector{0.3});
     EXPECT_GE(of_impact.chart.back(), 0.306);
@@ -232,7 +254,7 @@ TEST(FilmTimes, StillsHaveRowsWithinTheCollisionsOfAStrip) {
     sim::Result motion;
     for (int i = 0; i < 3; ++i) {
         sim::Impact& next = motion.impacts.emplace_back();
-        next.t_start = 0.2 + 0.2 * i, next.t_end = 0.21 + 0.2 * i, next.collision = i;
+        next.t_start = 0.2 + 0.2 * i, next.t_end = 0.21 + 0.2 * i, next.collision = i + 1;
     }
     const Instant at{.kind = Instant::Kind::time, .t = 0.7};
     const auto within = [&](const std::vector<double>& all, const sim::Impact& i) {
@@ -251,7 +273,7 @@ TEST(FilmTimes, CollisionsHaveRowsOfTheirOwn) {
     const auto add = [&](double from, std::optional<double> to) {
         sim::Impact& next = motion.impacts.emplace_back();
         next.t_start = from, next.t_end = to;
-        next.collision = static_cast<int>(motion.impacts.size()) - 1;
+        next.collision = static_cast<int>(motion.impacts.size());
     };
     for (int i = 0; i < 3; ++i) add(0.2 + 0.2 * i, 0.21 + 0.2 * i);
     const FrameSpan span{.fps = {60, 1}};

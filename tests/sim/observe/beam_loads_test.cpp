@@ -146,6 +146,29 @@ TEST(BeamLoads, OfADampedVibrationContainTheViscousPart) {
     }
 }
 
+// A clamped beam whose tip passes its straight position at the speed v in one mode bends until σ = v √(Eρ) c/r, in any
+// mode: the kinetic energy has become bending energy (Hunt 1960). r is the radius of gyration √(I/A).
+TEST(BeamLoads, StressOfAVibrationFollowsFromTheSpeedOfTheTip) {
+    for (const std::size_t mode : {0u, 1u, 2u}) {
+        Problem p = falling_beam(ModelKind::first_order, Basis::cantilever, 3);
+        p.hub.drive = ConstantSpeed{0};
+        p.gravity = 0;
+        p.beam.section = Rectangle{0.025, 0.003};
+        p.initial.angle = 0;
+        p.initial.q_dot.assign(3, 0);
+        p.initial.q_dot[mode] = 1e-4;
+        Request request;
+        request.end_time = 10 / first_clamped_frequency(p.beam);
+        request.extrema = {channel("stress_max"), channel("tip_rate")};
+        const Result r = simulate(p, request);
+        const SectionProperties section = section_properties(p.beam);
+        const double speed = std::max(r.extrema[1].max, -r.extrema[1].min);
+        const double gyration = std::sqrt(section.second_moment / section.area);
+        const double stress = speed * std::sqrt(p.beam.youngs_modulus * p.beam.density) * section.c_max / gyration;
+        EXPECT_NEAR(r.extrema[0].max, stress, 1e-5 * stress) << mode;
+    }
+}
+
 // The balance of moments of the hub, I_h θ̈ = τ + M(0) + a e × S with the shear force S on the hub, and that of the
 // power: in flight and in contact, with an offset of the face and friction.
 TEST(BeamLoads, MoveTheHubAsTheEquationsDo) {

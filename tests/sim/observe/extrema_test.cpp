@@ -481,6 +481,29 @@ TEST(ContactPeaks, AreThoseOfDenseSampling) {
     EXPECT_NEAR(*r.impacts[5].force_peak, 1237.51, 0.01);  // a neighbour is 1237.4922
     expect_peaks_of_dense_sampling(p, r);
 }
+// The instants of the largest force of each collision, and of the largest deflection from it to the next.
+TEST(ContactPeaks, OfCollisionsAndTheBendAfterThemAreAtTheirInstants) {
+    const Problem p;  // of two collisions
+    Request request;
+    request.end_time = 1.2, request.bends = true;
+    const Result found = simulate(p, request);
+    ASSERT_GE(found.collisions.size(), 2u);
+    for (std::size_t i = 0; i < found.collisions.size(); ++i) {
+        const Collision& each = found.collisions[i];
+        const double next = i + 1 < found.collisions.size() ? found.collisions[i + 1].t_start : found.end_time;
+        const Table at =
+            sampled(p, {{ChannelKind::contact_force}, {ChannelKind::tip_deflection}}, {*each.t_peak, *each.t_bend});
+        EXPECT_NEAR(at.values[0][0], *each.force_peak, 1e-6 * *each.force_peak);
+        const Table dense = sampled(p, {{ChannelKind::tip_deflection}}, instants(each.t_start, next, 20'000));
+        double most = 0;
+        for (const double v : dense.values[0]) most = std::max(most, std::fabs(v));
+        EXPECT_GE(std::fabs(at.values[1][1]), most * (1 - 1e-9));
+        EXPECT_GE(*each.t_bend, each.t_start);
+        EXPECT_LE(*each.t_bend, next);
+    }
+    EXPECT_FALSE(simulate(turning_cam(ModelKind::rigid, 1), request).collisions.front().t_bend);
+}
+
 TEST(ContactPeaks, CostNothingUnlessRequested) {
     const Problem p = six_impacts();
     Request all, none;

@@ -164,7 +164,7 @@ TEST(ContinuedMotion, CollisionIsRemembered) {
     const Problem next = *simulate(p, request).states[0];
     ASSERT_TRUE(next.initial.contact);
     EXPECT_FALSE(next.initial.contact->touching);
-    const Collision& collision = result.collisions[static_cast<std::size_t>(after.collision)];
+    const Collision& collision = result.collisions[static_cast<std::size_t>(after.collision - 1)];
     EXPECT_NEAR(*next.initial.contact->first_approach, -collision.v_n_before, 1e-9);
     EXPECT_NEAR(*next.initial.contact->last_release, *before.t_end - request.states[0], 1e-12);
     // Without the memory the next touch would divide by its own, slower approach.
