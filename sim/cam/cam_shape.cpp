@@ -82,7 +82,7 @@ struct CamShape::Fit {
     std::vector<Piece>& out;
 
     Piece interpolated(double from, double to) const {
-        Piece piece{from, 0.5 * (from + to), 2 / (to - from), {}, {}, {}};
+        Piece piece{from, 0, 0.5 * (from + to), 2 / (to - from), {}, {}, {}};
         Coefficients h, slope, radius;
         for (std::size_t i = 0; i < kCount; ++i) {
             const CamPoint p = span.at(piece.middle + interpolation().nodes[i] / piece.scale + shift);
@@ -123,6 +123,13 @@ double CamShape::Piece::radius_slope(double alpha) const {
     return scale * polynomial_slope(radius, (alpha - middle) * scale);
 }
 
+double CamShape::Piece::arc_at(double alpha) const {
+    std::array<double, kCount + 1> integral{};  // of ρ
+    for (std::size_t k = 0; k < kCount; ++k) integral[k + 1] = radius[k] / static_cast<double>(k + 1);
+    return arc +
+           (polynomial(integral, (alpha - middle) * scale) - polynomial(integral, (from - middle) * scale)) / scale;
+}
+
 CamShape::CamShape(const Problem& problem)
     : disc_radius_(problem.cam->radius), eccentricity_(problem.cam->eccentricity) {
     std::vector<double> ends;
@@ -147,6 +154,7 @@ CamShape::CamShape(const Problem& problem)
     }
     if (!pieces_.empty()) {
         pieces_.front().from = 0;
+        for (std::size_t i = 1; i < pieces_.size(); ++i) pieces_[i].arc = pieces_[i - 1].arc_at(pieces_[i].from);
         first_piece_.resize(2 * pieces_.size());
         for (std::size_t i = 0, piece = 0; i < first_piece_.size(); ++i) {
             const double start = kFullTurn * static_cast<double>(i) / static_cast<double>(first_piece_.size());
@@ -183,6 +191,11 @@ double CamShape::radius_slope(double alpha) const {
     if (is_disc()) return 0;
     const double turn = reduced(alpha);
     return piece(turn).radius_slope(turn);
+}
+
+double CamShape::arc(double alpha) const {
+    if (is_disc()) return disc_radius_ * alpha;
+    return alpha < kFullTurn ? piece(alpha).arc_at(alpha) : pieces_.back().arc_at(kFullTurn);
 }
 
 std::vector<double> CamShape::intervals() const {

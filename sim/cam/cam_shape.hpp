@@ -28,6 +28,8 @@ class CamShape {
     bool is_disc() const { return pieces_.empty(); }
     CamPoint at(double alpha) const;          // any α [rad]; accurate to about 1e-15 of the size
     double radius_slope(double alpha) const;  // dρ/dα [m]; accurate to about 1e-12 of the size
+    // Length of the outline from the normal 0 to the normal α in [0, 2π], counter-clockwise [m].
+    double arc(double alpha) const;
     // The angles in [0, 2π) where ρ or its derivative jumps, increasing; but not the knots of a profile of points.
     std::span<const double> kinks() const { return kinks_; }
     // Intervals of a turn, over each of which the outline is smooth: their ends, from 0 to 2π, increasing.
@@ -36,18 +38,21 @@ class CamShape {
     double least_radius() const { return least_radius_; }      // of ρ [m]
     double largest_radius() const { return largest_radius_; }  // of ρ [m]
     double least_height() const { return least_height_; }      // of h [m], > 0: the base circle about C
-    double largest_reach() const { return largest_reach_; }    // of |p| [m]
-    double largest_slope() const { return largest_slope_; }    // of |h′| [m]; of the disc e
-    double largest_arm() const { return largest_arm_; }        // of |p − ρn| [m]; of the disc e
+    double inner_radius() const { return is_disc() ? disc_radius_ : least_height_; }  // of a disc within the cam [m]
+    double largest_reach() const { return largest_reach_; }                           // of |p| [m]
+    double largest_slope() const { return largest_slope_; }                           // of |h′| [m]; of the disc e
+    double largest_arm() const { return largest_arm_; }  // of |p − ρn| [m]; of the disc e
 
   private:
     static constexpr int kDegree = 9;
     using Coefficients = std::array<double, kDegree + 1>;
     struct Piece {
-        double from = 0, middle = 0, scale = 0;  // z = (α − middle) scale, in [−1, 1]
-        Coefficients h, slope, radius;           // of zᵏ
+        double from = 0, arc = 0;       // α and length of the outline at its start
+        double middle = 0, scale = 0;   // z = (α − middle) scale, in [−1, 1]
+        Coefficients h, slope, radius;  // of zᵏ
         CamPoint at(double alpha) const;
         double radius_slope(double alpha) const;
+        double arc_at(double alpha) const;  // the outline's length up to there [m]
     };
     struct Fit;
     const Piece& piece(double alpha) const;  // α in [0, 2π)

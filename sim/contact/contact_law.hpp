@@ -17,7 +17,15 @@ struct NormalLaw {
     double stiffness = 1e8;  // K [N/m^n]
     double exponent = 1.5;   // n
     double damping = 0;      // D [–]
+    // ρ for which Hertz's stiffness of a sphere is given, of a cam whose radius of curvature changes; 0: K is constant.
+    double hertz_radius = 0;  // [m]
 
+    // The law where the cam has that radius of curvature [m] (S29).
+    NormalLaw at(double radius) const {
+        NormalLaw law = *this;
+        if (hertz_radius > 0) law.stiffness *= std::sqrt(radius / hertz_radius);
+        return law;
+    }
     // `penetration` δ [m] (<= 0: no force), `rate` δ̇ [m/s], `approach` δ̇₋ > 0, the approach speed of this touch [m/s].
     ForceAndSlopes linearized(double penetration, double rate, double approach) const;
     double force(double penetration, double rate, double approach) const {  // [N]

@@ -7,23 +7,34 @@
 #include "sim/dynamics/constants.hpp"
 
 namespace beamcam::sim {
-ContactGeometry::ContactGeometry(const Problem& problem, const Model& model)
-    : cam_(problem.cam.value_or(Cam{})),
+ContactGeometry::ContactGeometry(const Problem& problem, const Model& model, const TurningCam& cam)
+    : cam_(cam),
       hub_radius_(problem.hub.radius),
       length_(model.length()),
       offset_(contact_offset(problem)),
       samples_(problem.beam.model == ModelKind::exact ? 4 * model.size() + kIntervalsOfExact
                                                       : 2 * model.size() + kIntervalsOfModes) {}
 
+// The disc that osculates the cam where it is nearest to a point of the beam, which faces it with one of its sides.
+OsculatingDisc ContactGeometry::disc_at(const BeamPoint& at, double t) const {
+    const Vec2 across = perp(at.r1) * (1 / norm(at.r1));
+    return cam_.nearest(t, at.r, dot(across, at.r - cam_.axis()) < 0 ? -across : across);
+}
+
 // A starting point for Newton's method: the foot on the straight beam if there is only one foot, else the nearest of a
 // few points, which is not where a straight beam is farther by twice the deflection.
-double ContactGeometry::near_foot(const Model& model, const GapBound& bound, Vec2 disc) const {
+double ContactGeometry::near_foot(const Model& model, const GapBound& bound, double t) const {
     const double* q = model.coordinates();
-    const Vec2 along = unit(q[0]);
-    const double straight_foot = std::clamp(dot(disc, along) - hub_radius_, 0.0, length_);
+    const Vec2 along = unit(q[0]), across = perp(along);
+    const OsculatingDisc facing = cam_.disc(t, dot(across, cam_.axis()) < 0 ? across : -across);
+    const double straight_foot = std::clamp(dot(facing.centre, along) - hub_radius_, 0.0, length_);
     if (bound.nearly_straight(q + 1)) return straight_foot;
     const double none[kMaxSize] = {}, step = length_ / samples_;
-    const auto straight = [&](double x) { return norm((hub_radius_ + x) * along - disc); };
+    const auto distance = [&](const BeamPoint& at) {
+        const OsculatingDisc disc = cam_.is_disc() ? facing : disc_at(at, t);
+        return norm(at.r - disc.centre) - disc.radius;
+    };
+    const auto straight = [&](double x) { return distance({(hub_radius_ + x) * along, along, {}, {}, {}}); };
     const double most = straight(straight_foot) + step + 2 * bound.deflection(q, none);
     double best = std::numeric_limits<double>::infinity(), nearest = straight_foot;
     BeamPoint at;
@@ -31,10 +42,8 @@ double ContactGeometry::near_foot(const Model& model, const GapBound& bound, Vec
         const double x = length_ * i / samples_;
         if (straight(x) > most) continue;
         model.point(x, at);
-        const Vec2 d = at.r - disc;
-        const double distance = dot(d, d);
-        if (distance < best) {
-            best = distance;
+        if (const double away = distance(at); away < best) {
+            best = away;
             nearest = x;
         }
     }
@@ -42,13 +51,16 @@ double ContactGeometry::near_foot(const Model& model, const GapBound& bound, Vec
 }
 
 // The foot of the perpendicular from B: a root of r′·(r − B) with r″·(r − B) + r′·r′ > 0          (S24)
-BeamPoint ContactGeometry::foot(const Model& model, Vec2 disc, double x, ContactState& c) const {
+// B is the centre of the disc that osculates the cam where it is nearest to r. It moves with r, but across the beam
+// once r is the foot: Newton's method still converges quadratically.
+BeamPoint ContactGeometry::foot(const Model& model, double t, double x, ContactState& c) const {
     BeamPoint at;
     double low = 0, high = length_;
     c.at_end = false;
     for (int iteration = 0; iteration < kMaxFootSteps; ++iteration) {
         model.point(x, at);
-        const Vec2 d = at.r - disc;
+        if (iteration == 0 || !cam_.is_disc()) c.disc = disc_at(at, t);
+        const Vec2 d = at.r - c.disc.centre;
         const double slope = dot(at.r1, d);
         if ((x <= 0 && slope >= 0) || (x >= length_ && slope <= 0)) {
             c.at_end = true;
@@ -62,6 +74,7 @@ BeamPoint ContactGeometry::foot(const Model& model, Vec2 disc, double x, Contact
         double next = bend > 0 ? x - slope / bend : (slope > 0 ? low : high);
         if (bend > 0 && std::fabs(next - x) <= kLastFootChange * length_ && next > 0 && next < length_) {
             if (next != x) model.point(x = next, at);
+            if (!cam_.is_disc()) c.disc = disc_at(at, t);
             break;
         }
         if (next <= low || next >= high) {
@@ -80,18 +93,17 @@ BeamPoint ContactGeometry::foot(const Model& model, Vec2 disc, double x, Contact
 
 ContactState ContactGeometry::evaluate(const Model& model, const GapBound& bound, double t, double shift) const {
     ContactState c;
-    const CamPose pose = cam_pose(cam_, t);
-    const BeamPoint at = foot(model, pose.disc, near_foot(model, bound, pose.disc), c);
-    const Vec2 d = at.r - pose.disc;
+    const BeamPoint at = foot(model, t, near_foot(model, bound, t), c);
+    const Vec2 d = at.r - c.disc.centre;
     const double distance = norm(d);
     c.normal = d * (1 / distance);
     c.tangent = -perp(c.normal);
     c.side = c.at_end ? 0 : std::copysign(1, cross(at.r1, d));
-    c.gap = distance - cam_.radius - offset_ + shift;  // (S25)
-    c.gap_rate = dot(c.normal, at.v - pose.velocity);  // (S26)
+    c.gap = distance - c.disc.radius - offset_ + shift;  // (S25)
+    c.gap_rate = dot(c.normal, at.v - c.disc.velocity);  // (S26)
     // χ̇, the angular velocity of the section; the contact face is at a distance d from the centre line (S27).
     const double chi_dot = cross(at.r1, at.v1) / dot(at.r1, at.r1);
-    c.slip = dot(c.tangent, at.v - pose.velocity) + offset_ * chi_dot - cam_.speed * cam_.radius;
+    c.slip = dot(c.tangent, at.v - c.disc.velocity) + offset_ * chi_dot - cam_.speed() * c.disc.radius;
     return c;
 }
 
@@ -109,12 +121,12 @@ void ContactGeometry::rows(const Model& model, const ContactState& c, double* jn
 double ContactGeometry::gap_acceleration_at_rest(const Model& model, double t, const ContactState& c) const {
     BeamPoint p;
     model.point(c.x, p);
-    const CamPose pose = cam_pose(cam_, t);
-    const Vec2 d = p.r - pose.disc, w = p.v - pose.velocity;
+    const OsculatingDisc disc = cam_.disc(t, c.normal);
+    const Vec2 d = p.r - disc.centre, w = p.v - disc.velocity;
     const double rate = c.at_end ? 0 : -(dot(p.v1, d) + dot(p.r1, w)) / (dot(p.r2, d) + dot(p.r1, p.r1));
     const Vec2 d_rate = w + rate * p.r1;
     const Vec2 n_rate = (d_rate - dot(c.normal, d_rate) * c.normal) * (1 / norm(d));
-    const Vec2 disc_acceleration = -cam_.speed * cam_.speed * (pose.disc - cam_.centre);
+    const Vec2 disc_acceleration = -cam_.speed() * cam_.speed() * (disc.centre - cam_.axis());
     return dot(n_rate, w) + dot(c.normal, model.convective(c.x) + rate * p.v1 - disc_acceleration);
 }
 

@@ -1,6 +1,7 @@
-// Contact geometry of the beam's centre line and the disc: foot of the perpendicular, gap, gap rate, slip. MODEL.md §7.
+// Contact geometry of the beam's centre line and the cam: foot of the perpendicular, gap, gap rate, slip. MODEL.md §7.
 #pragma once
 
+#include "sim/cam/turning_cam.hpp"
 #include "sim/dynamics/gap_bound.hpp"
 
 namespace beamcam::sim {
@@ -10,7 +11,8 @@ struct ContactState {
     double x = 0;                  // x_c [m]
     bool at_end = false;           // the foot is an end of the beam
     Vec2 normal, tangent;          // n, t
-    double side = 0;               // side of the beam on which the disc's centre lies: ±1; 0 beyond the ends
+    double side = 0;               // side of the beam on which the cam lies: ±1; 0 beyond the ends
+    OsculatingDisc disc;           // of the cam at the foot
     double gap = 0, gap_rate = 0;  // [m], [m/s]
     double slip = 0;               // v_t [m/s]
     double force = 0;              // N [N]
@@ -21,7 +23,7 @@ struct ContactState {
 // Evaluates the contact in the state of a Model.
 class ContactGeometry {
   public:
-    ContactGeometry(const Problem& problem, const Model& model);
+    ContactGeometry(const Problem& problem, const Model& model, const TurningCam& cam);
 
     // Everything but the forces. `shift` is added to the gap [m].
     ContactState evaluate(const Model& model, const GapBound& bound, double t, double shift) const;
@@ -31,10 +33,11 @@ class ContactGeometry {
     double gap_acceleration_at_rest(const Model& model, double t, const ContactState& c) const;
 
   private:
-    double near_foot(const Model& model, const GapBound& bound, Vec2 disc) const;
-    BeamPoint foot(const Model& model, Vec2 disc, double x, ContactState& c) const;
+    double near_foot(const Model& model, const GapBound& bound, double t) const;
+    BeamPoint foot(const Model& model, double t, double x, ContactState& c) const;
+    OsculatingDisc disc_at(const BeamPoint& at, double t) const;
 
-    Cam cam_;
+    TurningCam cam_;
     double hub_radius_, length_, offset_;
     int samples_;  // intervals of a search along the whole beam
 };

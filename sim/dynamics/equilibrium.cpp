@@ -29,7 +29,9 @@ Eigen::VectorXd scales(const Problem& problem, int n) {
 double force_size(const System& system) {
     const Problem& problem = system.problem();
     const double length = problem.beam.length, mass = problem.beam.line_density() * length;
-    const double torque = system.drive().has_torque() ? std::fabs(system.drive().torque(0)) : 0;
+    double torque = system.drive().has_torque() ? std::fabs(system.drive().torque(0)) : 0;
+    if (const auto& spring = system.spring())
+        torque += std::fabs(spring->torque(problem.initial.angle, 0)) + spring->stiffness;
     const double force = std::max(mass * std::fabs(problem.gravity), torque / length);
     return force > 0 ? force : problem.beam.bending_stiffness() / (length * length);
 }
@@ -141,9 +143,10 @@ bool equilibrium_on_cam(System& system, double t, FollowingState& s) {
         std::copy_n(at.data(), n, y.begin());
         const ContactState c = system.contact(t, y.data());
         // Compliant contact: a separated beam is pulled back by a linear spring, so that Newton's method converges.
-        const double normal = rigid_contact ? at[n]
-                              : c.gap < 0   ? system.normal_law().force(-c.gap, moves ? -c.gap_rate : 0, approach)
-                                            : -c.gap * stiffness * kSeparatedPull;
+        const double normal =
+            rigid_contact ? at[n]
+            : c.gap < 0   ? system.normal_law().at(c.disc.radius).force(-c.gap, moves ? -c.gap_rate : 0, approach)
+                          : -c.gap * stiffness * kSeparatedPull;
         const bool solvable = system.generalized_force(t, c, normal, force.data());
         if (moves && solvable) model.solve(force.data());
         if (moves && !solvable) force.setConstant(std::numeric_limits<double>::quiet_NaN());  // rejects the iterate
@@ -221,18 +224,39 @@ FollowingState left_behind(System& system, const Eigen::VectorXd& xi) {
     return {xi, (later.xi - earlier.xi) / (2 * dt), zero};
 }
 
-// The rigid rod on that side of the disc against which weight and torque press it, with the static penetration.
+constexpr int kRodRounds = 50;         // each round divides the error by about five
+constexpr double kSettledRod = 1e-12;  // [rad]
+
+// The angle at which a straight rod touches the cam at t = 0 with its lower side (+1) or its upper side (−1): the
+// distance of the axis C from its face is h at that normal. The rod on the disc at its normal is a better guess in
+// every round, and exact for a disc.
+double rod_angle(const System& system, double side) {
+    const Vec2 axis = system.cam().axis();
+    double angle = std::atan2(axis.y, axis.x), change = 1;
+    for (int i = 0; i < kRodRounds && std::fabs(change) > kSettledRod; ++i) {
+        const OsculatingDisc disc = system.cam().disc(0, side * perp(unit(angle)));
+        const double reach = disc.radius + system.offset();
+        const double next =
+            std::atan2(disc.centre.y, disc.centre.x) + side * std::asin(std::min(1.0, reach / norm(disc.centre)));
+        change = next - angle;
+        angle = next;
+    }
+    return angle;
+}
+
+// The rigid rod on that side of the cam against which weight and torque press it, with the static penetration.
 Eigen::VectorXd rod_on_cam(const System& system) {
     const Problem& problem = system.problem();
-    const Vec2 disc = system.cam(0).disc;
-    const double distance = norm(disc), lever = problem.hub.radius + 0.5 * problem.beam.length;
-    const double direction = std::atan2(disc.y, disc.x);
-    const double tangent = std::asin(std::min(1.0, (problem.cam->radius + system.offset()) / distance));
+    const double lever = problem.hub.radius + 0.5 * problem.beam.length;
     const double torque = system.drive().has_torque() ? system.drive().torque(0) : 0;
     const double weight = problem.gravity * problem.beam.line_density() * problem.beam.length;
-    const auto moment = [&](double angle) { return torque - weight * lever * std::cos(angle); };
-    const double side = moment(direction + tangent) > 0 && moment(direction - tangent) > 0 ? -1 : 1;
-    const double touching = direction + side * tangent;
+    const auto moment = [&](double angle) {
+        return torque - weight * lever * std::cos(angle) + (system.spring() ? system.spring()->torque(angle, 0) : 0);
+    };
+    const double above = rod_angle(system, 1), below = rod_angle(system, -1);
+    const double side = moment(above) > 0 && moment(below) > 0 ? -1 : 1;
+    const double touching = side > 0 ? above : below;
+    const double distance = norm(system.cam().disc(0, side * perp(unit(touching))).centre);
     const double penetration =
         problem.contact.model == ContactModel::restitution
             ? 0

@@ -8,13 +8,13 @@
 #include "sim/dynamics/constants.hpp"
 
 namespace beamcam::sim {
-GapBound::GapBound(const Problem& problem, const Model& model)
+GapBound::GapBound(const Problem& problem, const Model& model, const TurningCam& cam)
     : modes_(model.size() - 1),
       exact_(problem.beam.model == ModelKind::exact),
       length_(model.length()),
       radius_(problem.hub.radius),
       offset_(contact_offset(problem)),
-      cam_(problem.cam.value_or(Cam{})) {
+      cam_(cam) {
     if (modes_ == 0 || exact_) return;
     const Shapes shapes = Shapes::of(problem);
     for (int i = 0; i < modes_; ++i) {
@@ -30,12 +30,32 @@ bool GapBound::nearly_straight(const double* q) const {
         for (int j = 1; j <= modes_; ++j) curvature += j * (j + 1) / length_ * std::fabs(q[j - 1]);
     for (std::size_t i = 0; i < shape_bounds_.size(); ++i)
         curvature += shape_bounds_[i] * wave_numbers_[i] * wave_numbers_[i] * std::fabs(q[i]);
-    const double far = length_ + std::fabs(radius_) + norm(cam_.centre) + cam_.eccentricity;
+    const double far = length_ + std::fabs(radius_) + norm(cam_.axis()) + cam_.shape().largest_arm();
     return curvature * far < kSingleFoot;
 }
 
-// Distance of B from the straight beam at the frame's angle, less the largest contributions of bending, rotation and
-// the cam's motion.
+// A lower bound of the gap of the straight beam at the frame's angle. For a disc it is the gap itself: the distance of
+// B from the beam. The distance of a point from a convex cam is at least its distance beyond any tangent: here the one
+// along the beam, which gives the gap of a beam that reaches the foot, and the one across the line from the axis to the
+// beam's nearest point.
+double GapBound::straight_gap(double angle, double t) const {
+    const Vec2 along = unit(angle);
+    const auto nearest = [&](Vec2 to) { return std::clamp(dot(to, along), radius_, radius_ + length_) * along; };
+    if (cam_.is_disc()) {
+        const OsculatingDisc disc = cam_.disc(t, along);
+        return norm(disc.centre - nearest(disc.centre)) - disc.radius - offset_;
+    }
+    const auto beyond = [&](Vec2 normal) {
+        const double height = cam_.shape().at(std::atan2(normal.y, normal.x) - cam_.angle(t)).h;
+        const double root = dot(radius_ * along - cam_.axis(), normal), tip = root + length_ * dot(along, normal);
+        return std::min(root, tip) - height - offset_;
+    };
+    const Vec2 across = perp(along), apart = nearest(cam_.axis()) - cam_.axis();
+    const double faced = beyond(dot(across, cam_.axis()) < 0 ? across : -across), away = norm(apart);
+    return away > 0 ? std::max(faced, beyond(apart * (1 / away))) : faced;
+}
+
+// The gap of the straight beam, less the largest contributions of bending, rotation and the cam's motion.
 double GapBound::lower_bound(const DriveLaw& drive, double t, double h, const double* xi, const double* spread) const {
     BEAMCAM_ASSERT(h >= 0);
     double angle = xi[0], rotation = spread[0];
@@ -49,10 +69,8 @@ double GapBound::lower_bound(const DriveLaw& drive, double t, double h, const do
                                  std::fabs(h * (now.rate + 0.5 * side * now.acceleration))});
         }
     }
-    const Vec2 along = unit(angle), disc = disc_centre(cam_, t);
-    const double foot = std::clamp(dot(disc, along), radius_, radius_ + length_);
-    return norm(disc - foot * along) - cam_.radius - offset_ - deflection(xi, spread) -
-           rotation * (std::fabs(radius_) + length_) - h * std::fabs(cam_.speed) * cam_.eccentricity;
+    return straight_gap(angle, t) - deflection(xi, spread) - rotation * (std::fabs(radius_) + length_) -
+           h * std::fabs(cam_.speed()) * cam_.shape().largest_slope();
 }
 
 // Upper bound of the distance between a point of the beam and the same point of a straight beam. Foreshortening adds at

@@ -96,7 +96,7 @@ Problem continued(const System& system, double t, const std::vector<double>& y) 
     Problem next = system.problem();
     next.initial = initial_of(system, y, t);
     next.hub.drive = later(next.hub.drive, t);
-    if (next.cam) next.cam->phase = system.cam(t).angle;
+    if (next.cam) next.cam->phase = system.cam().angle(t);
     const Phase& phase = system.phase();
     if (phase.touching || phase.gap_offset != 0)
         next.initial.contact = {.touching = phase.touching,

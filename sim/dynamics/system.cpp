@@ -12,9 +12,15 @@
 namespace beamcam::sim {
 namespace {
 
-NormalLaw normal_law_of(const Problem& problem) {
-    return {contact_stiffness(problem), contact_exponent(problem),
-            damping_factor(problem.contact.damping, problem.contact.restitution)};
+// Of a cam with a profile, Hertz's stiffness is that of its largest radius of curvature.
+NormalLaw normal_law_of(const Problem& problem, const TurningCam& cam) {
+    NormalLaw law{contact_stiffness(problem), contact_exponent(problem),
+                  damping_factor(problem.contact.damping, problem.contact.restitution)};
+    if (cam.is_disc() || problem.contact.stiffness || is_line_contact(problem)) return law;
+    law.hertz_radius = problem.cam->radius;
+    law = law.at(cam.shape().largest_radius());
+    law.hertz_radius = cam.shape().largest_radius();
+    return law;
 }
 
 }  // namespace
@@ -35,10 +41,11 @@ System::System(const Problem& problem)
       model_(make_model(problem)),
       natural_modes_(std::make_shared<SharedModes>()),
       drive_(problem.hub.drive, problem.initial.angle),
-      law_(normal_law_of(problem)),
+      cam_(problem),
+      law_(normal_law_of(problem, cam_)),
       friction_(FrictionLaw::of(problem, law_, model_->mass())),
-      gap_bound_(problem, *model_),
-      geometry_(problem, *model_),
+      gap_bound_(problem, *model_, cam_),
+      geometry_(problem, *model_, cam_),
       n_(model_->size()),
       offset_(contact_offset(problem)) {
     controlled = 2 * n_ + (has_bristle() ? 1 : 0);
@@ -55,6 +62,7 @@ System::System(const System& other)
       model_(other.model_->clone()),
       natural_modes_(other.natural_modes_),
       drive_(other.drive_),
+      cam_(other.cam_),
       law_(other.law_),
       friction_(other.friction_),
       gap_bound_(other.gap_bound_),
@@ -105,7 +113,7 @@ ContactState System::current_contact(double t, const double* y) {
         constrain(t, c, acc, true);
     } else if (phase_.touching) {
         c.factor = law_.factor(-c.gap_rate, phase_.approach);
-        c.force = law_.force(-c.gap, -c.gap_rate, phase_.approach);
+        c.force = law_.at(c.disc.radius).force(-c.gap, -c.gap_rate, phase_.approach);
         c.friction = friction_.force(phase_.friction, c.force, c.slip, bristle(y));
     }
     return c;
@@ -130,6 +138,7 @@ void System::rhs(double t, const double* y, double* dy) {
     }
     inertia_lost_ = false;
     ledger[kLossStructural] = model_->damping_power();
+    if (spring()) ledger[kLossHub] = spring()->damping * model_->hub_rate() * model_->hub_rate();
     add_torque(t, acc);
     if (drive_.has_torque()) ledger[kWorkDrive] = drive_.torque(t) * model_->hub_rate();
     ContactState c;
@@ -145,7 +154,7 @@ void System::rhs(double t, const double* y, double* dy) {
     if (phase_.touching) {
         ledger[kNormalWork] = -c.force * c.gap_rate;
         ledger[kFrictionWork] = -c.friction * c.slip;
-        ledger[kWorkCam] = cam_power(t, c, c.force, c.friction);
+        ledger[kWorkCam] = cam_power(c, c.force, c.friction);
         ledger[kImpulseN] = c.force;
         ledger[kImpulseT] = c.friction;
     }
@@ -172,10 +181,9 @@ void System::respond(double* f) const {
 }
 
 // Power of the cam's motion for contact forces, or its work for impulses (S28).
-double System::cam_power(double t, const ContactState& c, double normal, double tangential) const {
-    const Vec2 velocity = cam(t).velocity;
-    return normal * dot(c.normal, velocity) +
-           tangential * (dot(c.tangent, velocity) + problem_.cam->speed * problem_.cam->radius);
+double System::cam_power(const ContactState& c, double normal, double tangential) const {
+    return normal * dot(c.normal, c.disc.velocity) +
+           tangential * (dot(c.tangent, c.disc.velocity) + cam_.speed() * c.disc.radius);
 }
 
 // Sustained contact: the normal force λ that keeps g = ġ = 0, with the friction −μλ tanh(v_t/v_s) (S45).
@@ -213,9 +221,14 @@ double System::free_gap_acceleration(double t, const double* y) {
     return free_gap_acceleration_;
 }
 
+double System::hub_torque(double t) const {
+    const double driven = drive_.has_torque() ? drive_.torque(t) : 0;
+    return spring() ? driven + spring()->torque(model_->hub_angle(), model_->hub_rate()) : driven;
+}
+
 void System::add_torque(double t, double* f) const {
-    if (!drive_.has_torque()) return;
-    const double torque = drive_.torque(t);
+    if (!drive_.has_torque() && !spring()) return;
+    const double torque = hub_torque(t);
     for (int i = 0; i < n_; ++i) f[i] += torque * model_->hub_row()[i];
 }
 
@@ -240,7 +253,7 @@ System::EnergyBalance System::balance_without_beam(const double* y, const Contac
     const double* ledger = y + controlled;
     double normal = 0, bristle_energy = 0;
     if (phase_.touching) {
-        normal = phase_.held ? 0 : law_.stored_energy(-c.gap);
+        normal = phase_.held ? 0 : law_.at(c.disc.radius).stored_energy(-c.gap);
         if (has_bristle()) {
             const bool sticks = phase_.friction == FrictionState::stick;
             const double z = sticks ? y[2 * n_] : friction_.sliding_bristle(phase_.friction, c.force);
@@ -251,6 +264,7 @@ System::EnergyBalance System::balance_without_beam(const double* y, const Contac
     EnergyBalance b;
     b.contact = normal + bristle_energy;
     b.loss_structural = ledger[kLossStructural];
+    b.loss_hub = ledger[kLossHub];
     b.loss_contact = ledger[kNormalWork] - normal;
     b.loss_friction = ledger[kFrictionWork] - bristle_energy;
     b.work_cam = ledger[kWorkCam];

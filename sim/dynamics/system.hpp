@@ -23,6 +23,7 @@ struct NaturalModes;
 // The integrals of the energy balance (S38).
 enum Ledger : int {
     kLossStructural,
+    kLossHub,
     kNormalWork,
     kFrictionWork,
     kWorkCam,
@@ -53,9 +54,12 @@ class System final : public Ode {
     bool has_bristle() const { return friction_.bristle; }
     int coordinates() const { return n_; }
     double bristle(const double* y) const { return friction_.bristle ? y[2 * n_] : 0; }  // its deflection z [m]
-    CamPose cam(double t) const { return cam_pose(*problem_.cam, t); }
+    const TurningCam& cam() const { return cam_; }
     Model& model() { return *model_; }
     const DriveLaw& drive() const { return drive_; }
+    const std::optional<HubSpring>& spring() const { return problem_.hub.spring; }
+    // Of drive and spring on the hub, in the state of `set_state` [N m].
+    double hub_torque(double t) const;
     const NormalLaw& normal_law() const { return law_; }
     const FrictionLaw& friction() const { return friction_; }
     const GapBound& gap_bound() const { return gap_bound_; }
@@ -76,15 +80,17 @@ class System final : public Ode {
     // Energies, losses and work; the total is constant (S38).
     struct EnergyBalance {
         Energies energies;
-        double contact = 0, loss_structural = 0, loss_contact = 0, loss_friction = 0, work_cam = 0, work_drive = 0;
+        double spring = 0;  // of the hub
+        double contact = 0, loss_structural = 0, loss_hub = 0, loss_contact = 0, loss_friction = 0, work_cam = 0,
+               work_drive = 0;
         double total() const {
-            return energies.kinetic + energies.gravity + energies.elastic + contact + loss_structural + loss_contact +
-                   loss_friction - work_cam - work_drive;
+            return energies.kinetic + energies.gravity + energies.elastic + spring + contact + loss_structural +
+                   loss_hub + loss_contact + loss_friction - work_cam - work_drive;
         }
     };
     bool contact_stores_energy() const { return phase_.touching && (!phase_.held || has_bristle()); }
-    // All but the energies of the beam. Of the contact, if it stores energy, only the gap counts and, with a bristle,
-    // the force.
+    // All but the energies of the beam and the hub's spring. Of the contact, if it stores energy, only the gap counts
+    // and, with a bristle, the force.
     EnergyBalance balance_without_beam(const double* y, const ContactState& c) const;
     // ξ̈ at (t, y) in the present phase; array of `coordinates`. Returns the power of the drive [W].
     double acceleration(double t, const double* y, double* acc);
@@ -122,7 +128,7 @@ class System final : public Ode {
     double accelerate(double t, double* acc) const;
     void respond(double* f) const;
     double constrain(double t, ContactState& c, double* acc, bool with_force);
-    double cam_power(double t, const ContactState& c, double normal, double tangential) const;
+    double cam_power(const ContactState& c, double normal, double tangential) const;
     bool assemble(double* f);         // false if the inertia is not positive
     void require_inertia(double* f);  // the same, but throws InertiaLost
 
@@ -132,6 +138,7 @@ class System final : public Ode {
     std::unique_ptr<Model> model_;
     std::shared_ptr<SharedModes> natural_modes_;
     DriveLaw drive_;
+    TurningCam cam_;
     NormalLaw law_;
     FrictionLaw friction_;
     GapBound gap_bound_;

@@ -40,7 +40,7 @@ ContactState System::hold(double t, double off, double* y) {
 double System::touch_time(double t, const double* y, const ContactState& c, double approach) {
     const double per_newton = compliance(t, y, c).nn;
     if (!(approach > 0) || !(per_newton > 0)) return std::numeric_limits<double>::infinity();
-    return impact_depth(law_.exponent, per_newton * law_.stiffness, 1, approach) / approach;
+    return impact_depth(law_.exponent, per_newton * law_.at(c.disc.radius).stiffness, 1, approach) / approach;
 }
 
 void System::apply_impact(double t, double* y, const ContactState& c, const ImpactResult& impact) {
@@ -59,7 +59,7 @@ void System::apply_impact(double t, double* y, const ContactState& c, const Impa
     // Work of an impulse = impulse × mean of the speeds before and after (S46).
     ledger[kNormalWork] -= impact.impulse_n * 0.5 * (c.gap_rate + impact.v_n);
     ledger[kFrictionWork] -= impact.impulse_t * 0.5 * (c.slip + impact.v_t);
-    ledger[kWorkCam] += cam_power(t, c, impact.impulse_n, impact.impulse_t);
+    ledger[kWorkCam] += cam_power(c, impact.impulse_n, impact.impulse_t);
     ledger[kImpulseN] += impact.impulse_n;
     ledger[kImpulseT] += impact.impulse_t;
 }

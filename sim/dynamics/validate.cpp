@@ -210,7 +210,7 @@ void check_geometry(Issues& out, const Problem& p) {
     }
     if (p.initial.shape == InitialShape::resting) return;
     try {
-        const bool straight = p.initial.shape == InitialShape::straight && p.initial.q.empty();
+        const bool straight = p.initial.shape == InitialShape::straight && p.initial.q.empty() && !p.cam->profile;
         auto [gap, x] = straight ? straight_gap(p) : gap_at_start(p);
         if (p.initial.contact) gap += p.initial.contact->gap_offset;
         if (check_continued_contact(out, p, gap)) return;

@@ -31,6 +31,7 @@ std::shared_ptr<const ModalModel> shapes_of(const System& system, const Model& m
 ContactExpansion::ContactExpansion(System& system)
     : model_(shapes_of(system, system.model())),
       n_(static_cast<std::size_t>(system.coordinates()) - 1),
+      cam_(system.cam()),
       length_(system.model().length()),
       offset_(system.offset()),
       radius_(system.problem().hub.radius),
@@ -40,9 +41,6 @@ ContactExpansion::ContactExpansion(System& system)
       y_((kOrder + 1) * n_),
       transposed_((kOrder + 1) * n_),
       shorten_(exact() ? 0 : n_ * n_) {
-    const Cam& cam = *system.problem().cam;
-    disc_ = cam.radius;
-    rim_ = cam.speed * cam.radius;
     range_ = kLongestExpansion * length_;
     if (!exact()) {
         for (std::size_t i = 0; i < n_; ++i)

@@ -18,13 +18,56 @@ BEAMCAM_INLINE void root(const Lanes& a, Lanes& out) {
     for (int k = 0; k < kNodes; ++k) out[k] = std::sqrt(a[k]);
 }
 
+// The angle of a vector.
+BEAMCAM_INLINE void direction(double x, double y, double& out) { out = std::atan2(y, x); }
+BEAMCAM_INLINE void direction(const Lanes& x, const Lanes& y, Lanes& out) {
+    for (int k = 0; k < kNodes; ++k) out[k] = std::atan2(y[k], x[k]);
+}
+// The outline of the cam where its normal has the angle α: h, h′ and ρ.
+BEAMCAM_INLINE void outline(const CamShape& cam, double alpha, double& h, double& slope, double& radius) {
+    const CamPoint at = cam.at(alpha);
+    h = at.h;
+    slope = at.slope;
+    radius = at.radius;
+}
+BEAMCAM_INLINE void outline(const CamShape& cam, const Lanes& alpha, Lanes& h, Lanes& slope, Lanes& radius) {
+    for (int k = 0; k < kNodes; ++k) {
+        const CamPoint at = cam.at(alpha[k]);
+        h[k] = at.h;
+        slope[k] = at.slope;
+        radius[k] = at.radius;
+    }
+}
+// The sign of a number at one instant, or at the first of eight.
+BEAMCAM_INLINE double sign_of(double a) { return a < 0 ? -1 : 1; }
+BEAMCAM_INLINE double sign_of(const Lanes& a) { return a[0] < 0 ? -1 : 1; }
+
 // The motion of the frame and the cam at one instant or eight.
 template <class T>
 struct Frame {
-    T sin, cos, theta_dot;  // of Θ; Θ̇
-    T disc_x, disc_y;       // B in fixed axes [m]
-    T disc_vx, disc_vy;     // Ḃ
+    T sin{}, cos{}, theta_dot{};  // of Θ; Θ̇
+    T disc_x{}, disc_y{};         // B in fixed axes [m]
+    T disc_vx{}, disc_vy{};       // Ḃ
+    T radius{};                   // of the disc [m]
+    T turned{};                   // Θ − ψ
+    // The disc is that which osculates the cam at the foot, instead of the given one.
+    bool osculating = false;
 };
+
+// The frame of the beam at the angle Θ, and the cam at time t.
+inline Frame<double> frame_of(const TurningCam& cam, double t, double theta, double theta_dot) {
+    Frame<double> frame{std::sin(theta), std::cos(theta), theta_dot};
+    frame.osculating = !cam.is_disc();
+    frame.turned = theta - cam.angle(t);
+    if (frame.osculating) return frame;
+    const OsculatingDisc disc = cam.disc(t, {});
+    frame.disc_x = disc.centre.x;
+    frame.disc_y = disc.centre.y;
+    frame.disc_vx = disc.velocity.x;
+    frame.disc_vy = disc.velocity.y;
+    frame.radius = disc.radius;
+    return frame;
+}
 
 constexpr int kExpansionOrder = 6;
 // Numbers with N derivatives have a distance from the centre that is zero but for these: powers beyond N vanish, and
@@ -44,6 +87,7 @@ struct ContactKinematics {
     T dx{};  // from the centre of the expansion to the foot; in: a first guess
     T gap, gap_rate, slip;
     T nx, ny;                        // normal in the beam's frame
+    T radius;                        // ρ of the cam [m]
     T hub;                           // ∂(n·r)/∂Θ
     T hub_t;                         // ∂(t·r)/∂Θ with the moment of the face
     T cam_n, cam_t;                  // n·Ḃ, t·Ḃ + ωR: power of the cam per force
@@ -95,9 +139,19 @@ class ContactExpansion {
     struct Point {
         T x, y, tangent_x, tangent_y, rate_x, rate_y, tangent_rate_x, tangent_rate_y;
     };
+    // The disc of the cam in the beam's frame, and the velocity of its centre.
+    template <class T>
+    struct Disc {
+        T x, y, vx, vy, radius;
+    };
     bool exact() const { return !model_; }
     template <class T>
-    void finish(const Point<T>& at, const T& ex, const T& ey, const Frame<T>& frame, double gap_offset,
+    Disc<T> given_disc(const Frame<T>& frame) const;
+    template <class T>
+    void osculate(const Frame<T>& frame, const T& tangent_x, const T& tangent_y, const T& x, const T& y,
+                  Disc<T>& disc) const;
+    template <class T>
+    void finish(const Point<T>& at, const Disc<T>& disc, const Frame<T>& frame, double gap_offset,
                 ContactKinematics<T>& touch) const;
     template <class T>
     void evaluate_exact(const T* q, const T* v, const Frame<T>& frame, double gap_offset, T* rows,
@@ -110,7 +164,8 @@ class ContactExpansion {
 
     std::shared_ptr<const ModalModel> model_;  // of the shapes; null for `exact`
     std::size_t n_, nodes_ = 0;
-    double x_ = -1, range_ = 0, length_, offset_, radius_, disc_, rim_, trusted_ = 0;
+    TurningCam cam_;
+    double x_ = -1, range_ = 0, length_, offset_, radius_, trusted_ = 0;
     bool shortening_ = false;
     std::vector<double> h_;           // ∂α/∂q
     std::vector<double> y_;           // kOrder + 1 derivatives of each shape
@@ -179,8 +234,7 @@ void ContactExpansion::evaluate(const T* q, const T* v, const Frame<T>& frame, d
     const double a = radius_, length = shortening_ ? 1 : 0;
     touch.shift = a * turn;
     const T u0 = -0.5 * qhq - 0.5 * touch.shift * turn, du0 = -vhq - touch.shift * turn_rate;
-    const T bx = frame.disc_x * frame.cos + frame.disc_y * frame.sin,
-            by = frame.disc_y * frame.cos - frame.disc_x * frame.sin;
+    Disc<T> disc = given_disc(frame);
     T x = touch.dx, deflection, slope, bend, rx, ry, r1;
     T* moment = touch.moment;
     for (int i = 0;; ++i) {
@@ -195,8 +249,9 @@ void ContactExpansion::evaluate(const T* q, const T* v, const Frame<T>& frame, d
         r1 = 1 - (0.5 * length) * slope * slope;
         rx = a + x_ + x + u;
         ry = deflection;
-        const T ex = rx - bx, ey = ry - by;
+        if (frame.osculating) osculate(frame, r1, slope, rx, ry, disc);
         if (i == corrections) break;
+        const T ex = rx - disc.x, ey = ry - disc.y;
         // r′·(r − B) = 0                                                                                       (S24)
         const T residual = r1 * ex + slope * ey;
         x -= residual / (r1 * r1 + slope * slope + bend * (ey - length * slope * ex));
@@ -208,24 +263,50 @@ void ContactExpansion::evaluate(const T* q, const T* v, const Frame<T>& frame, d
     taylor(d + 1, x, kDegree, slope_speed);
     if (shortening_) du = du0 - slope_product(moment, d);
     const Point<T> at{rx, ry, r1, slope, du, speed, -length * slope * slope_speed, slope_speed};
-    finish(at, rx - bx, ry - by, frame, gap_offset, touch);
+    finish(at, disc, frame, gap_offset, touch);
 }
 
 template <class T>
-BEAMCAM_INLINE void ContactExpansion::finish(const Point<T>& at, const T& ex, const T& ey, const Frame<T>& frame,
+BEAMCAM_INLINE ContactExpansion::Disc<T> ContactExpansion::given_disc(const Frame<T>& f) const {
+    return {f.disc_x * f.cos + f.disc_y * f.sin, f.disc_y * f.cos - f.disc_x * f.sin,
+            f.disc_vx * f.cos + f.disc_vy * f.sin, f.disc_vy * f.cos - f.disc_vx * f.sin, f.radius};
+}
+
+// The normal is that of the beam at (x, y), on the side away from the cam. The centre of curvature is
+// (h − ρ) n + h′ t from the axis.
+template <class T>
+void ContactExpansion::osculate(const Frame<T>& frame, const T& tangent_x, const T& tangent_y, const T& x, const T& y,
+                                Disc<T>& disc) const {
+    const Vec2 c = cam_.axis();
+    const T cx = c.x * frame.cos + c.y * frame.sin, cy = c.y * frame.cos - c.x * frame.sin;
+    const double side = sign_of(tangent_x * (y - cy) - tangent_y * (x - cx));
+    T length, angle, h, slope;
+    root(tangent_x * tangent_x + tangent_y * tangent_y, length);
+    const T nx = -side * tangent_y / length, ny = side * tangent_x / length;
+    direction(nx, ny, angle);
+    outline(cam_.shape(), angle + frame.turned, h, slope, disc.radius);
+    const T along = h - disc.radius, ax = along * nx - slope * ny, ay = along * ny + slope * nx;
+    disc.x = cx + ax;
+    disc.y = cy + ay;
+    disc.vx = cam_.speed() * ay;
+    disc.vy = -cam_.speed() * ax;
+}
+
+template <class T>
+BEAMCAM_INLINE void ContactExpansion::finish(const Point<T>& at, const Disc<T>& disc, const Frame<T>& frame,
                                              double gap_offset, ContactKinematics<T>& touch) const {
+    const T ex = at.x - disc.x, ey = at.y - disc.y;
     T distance;
     root(ex * ex + ey * ey, distance);
     touch.nx = ex / distance;
     touch.ny = ey / distance;
-    touch.gap = distance - (disc_ + offset_ - gap_offset);  // (S25)
-    const T bvx = frame.disc_vx * frame.cos + frame.disc_vy * frame.sin,
-            bvy = frame.disc_vy * frame.cos - frame.disc_vx * frame.sin;
+    touch.radius = disc.radius;
+    touch.gap = distance - (disc.radius + offset_ - gap_offset);  // (S25)
     const T vx = at.rate_x - at.y * frame.theta_dot, vy = at.rate_y + at.x * frame.theta_dot;
-    touch.gap_rate = touch.nx * (vx - bvx) + touch.ny * (vy - bvy);  // (S26)
+    touch.gap_rate = touch.nx * (vx - disc.vx) + touch.ny * (vy - disc.vy);  // (S26)
     // t = (n_y, −n_x)
-    touch.cam_n = touch.nx * bvx + touch.ny * bvy;
-    touch.cam_t = touch.ny * bvx - touch.nx * bvy + rim_;
+    touch.cam_n = touch.nx * disc.vx + touch.ny * disc.vy;
+    touch.cam_t = touch.ny * disc.vx - touch.nx * disc.vy + cam_.speed() * disc.radius;
     const T square = at.tangent_x * at.tangent_x + at.tangent_y * at.tangent_y;
     const T v1x = at.tangent_rate_x - at.tangent_y * frame.theta_dot,
             v1y = at.tangent_rate_y + at.tangent_x * frame.theta_dot;

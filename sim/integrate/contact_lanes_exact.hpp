@@ -37,8 +37,7 @@ void ContactExpansion::evaluate_exact(const T* q, const T* v, const Frame<T>& fr
     product(kOrder + 1, n_, y_.data(), v, d);
     Point<T> at;
     integrate(q, v, at, rows);
-    const T bx = frame.disc_x * frame.cos + frame.disc_y * frame.sin,
-            by = frame.disc_y * frame.cos - frame.disc_x * frame.sin;
+    Disc<T> disc = given_disc(frame);
     T x = touch.dx, sine[kPoints], cosine[kPoints], place[kPoints], rx, ry, angle;
     for (int i = 0;; ++i) {
         rx = at.x;
@@ -54,10 +53,11 @@ void ContactExpansion::evaluate_exact(const T* q, const T* v, const Frame<T>& fr
         }
         taylor(c, x, kOrder + 1, angle);
         sine_and_cosine(angle, at.tangent_y, at.tangent_x);
+        if (frame.osculating) osculate(frame, at.tangent_x, at.tangent_y, rx, ry, disc);
         if (i == corrections) break;
         T curvature;
         taylor(c + 1, x, kOrder, curvature);
-        const T ex = rx - bx, ey = ry - by;
+        const T ex = rx - disc.x, ey = ry - disc.y;
         const T residual = at.tangent_x * ex + at.tangent_y * ey;  // (S24)
         x -= residual / (1.0 + curvature * (at.tangent_x * ey - at.tangent_y * ex));
     }
@@ -81,7 +81,7 @@ void ContactExpansion::evaluate_exact(const T* q, const T* v, const Frame<T>& fr
     taylor(d, x, kOrder + 1, speed);
     at.tangent_rate_x = -speed * at.tangent_y;
     at.tangent_rate_y = speed * at.tangent_x;
-    finish(at, rx - bx, ry - by, frame, gap_offset, touch);
+    finish(at, disc, frame, gap_offset, touch);
 }
 
 }  // namespace beamcam::sim

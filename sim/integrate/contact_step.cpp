@@ -95,12 +95,19 @@ double ContactStep::solve(const StepTable& nodal) {
 // The force by extrapolation of the penetration and its rate at the start.
 void ContactStep::guess(const StepTable& table) {
     ExponentialSegment& s = step_.segment;
+    const TurningCam& cam = step_.system.cam();
+    frame_.osculating = !cam.is_disc();
     for (int k = 0; k < kNodes; ++k) {
-        const CamPose pose = step_.system.cam(step_.time[k]);
-        frame_.disc_x[k] = pose.disc.x;
-        frame_.disc_y[k] = pose.disc.y;
-        frame_.disc_vx[k] = pose.velocity.x;
-        frame_.disc_vy[k] = pose.velocity.y;
+        if (frame_.osculating) {
+            cam_angle_[k] = cam.angle(step_.time[k]);
+            continue;
+        }
+        const OsculatingDisc disc = cam.disc(step_.time[k], {});
+        frame_.disc_x[k] = disc.centre.x;
+        frame_.disc_y[k] = disc.centre.y;
+        frame_.disc_vx[k] = disc.velocity.x;
+        frame_.disc_vy[k] = disc.velocity.y;
+        frame_.radius[k] = disc.radius;
     }
     const Lanes tau = table.h * Collocation::get().c;
     for (int k = 0; k < kNodes; ++k) {
@@ -108,7 +115,8 @@ void ContactStep::guess(const StepTable& table) {
             off_at_nodes_[k] = share_left(step_.time[k] - s.t0) * off(start);
             load.force[k] = held_start_.force;
         } else {
-            load.force[k] = law_.force(-start.gap - start.gap_rate * tau[k], -start.gap_rate, approach);
+            load.force[k] =
+                law_.at(start.radius).force(-start.gap - start.gap_rate * tau[k], -start.gap_rate, approach);
         }
     }
     load.friction = friction_.bristle ? bristle_.guess(load.force, start.slip) : Lanes{};
@@ -176,8 +184,8 @@ double ContactStep::rate_rounding() const {
     return kDepthRounding * form_.length * largest(step_.segment.theta_dot) + kTravelRounding * disc_travel() * speed;
 }
 double ContactStep::disc_travel() const {
-    const Cam& cam = *step_.system.problem().cam;
-    return std::fabs(cam.speed * cam.eccentricity * step_.time[kNodes - 1]);
+    const TurningCam& cam = step_.system.cam();
+    return std::fabs(cam.speed() * cam.shape().largest_arm() * step_.time[kNodes - 1]);
 }
 
 // The difference of the force at a node from that of its law, and the slopes of the law; in sustained contact, of
@@ -186,7 +194,7 @@ ForceAndSlopes ContactStep::normal_residual(int k) const {
     const double gap = load.contact.gap[k], rate = load.contact.gap_rate[k];
     const System& system = step_.system;
     if (held_) return {off_at_nodes_[k] - system.off_constraint(gap, rate), system.baumgarte_rate(), 1};
-    ForceAndSlopes at = law_.linearized(-gap, -rate, approach);
+    ForceAndSlopes at = law_.at(load.contact.radius[k]).linearized(-gap, -rate, approach);
     at.force -= load.force[k];
     return at;
 }
@@ -240,9 +248,8 @@ double ContactStep::error(double h) {
 }
 
 bool ContactStep::deep() const {
-    const double deepest = -kDeepest * step_.system.problem().cam->radius;
-    bool beyond = end.gap < deepest;
-    for (int k = 0; k < kNodes; ++k) beyond = beyond || load.contact.gap[k] < deepest;
+    bool beyond = end.gap < -kDeepest * end.radius;
+    for (int k = 0; k < kNodes; ++k) beyond = beyond || load.contact.gap[k] < -kDeepest * load.contact.radius[k];
     return beyond;
 }
 

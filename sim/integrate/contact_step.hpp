@@ -22,10 +22,10 @@ class ContactStep {
     double solve(const StepTable& nodal);
     // The contact at one state, in coordinates.
     void evaluate(double t, const double* state, ContactKinematics<double>& touch);
-    // The contact is deeper than half of the disc's radius, beyond its geometry; another method continues.
+    // The contact is deeper than half of the cam's radius of curvature, beyond its geometry; another method continues.
     bool deep() const;
     ForceAndSlopes force(const ContactKinematics<double>& at) const {
-        return law_.linearized(-at.gap, -at.gap_rate, approach);
+        return law_.at(at.radius).linearized(-at.gap, -at.gap_rate, approach);
     }
     // After an accepted step of sustained contact: puts its end on the constraint.
     void hold_end();
@@ -75,6 +75,7 @@ class ContactStep {
     double mobility_modes_ = 0, mobility_hub_ = 0, mobility_contact_ = 0;
     double yields_ = 0;  // of the gap rate per impulse [1/kg]
     Frame<Lanes> frame_;
+    Lanes cam_angle_{};                            // ψ at the nodes
     Lanes contact_theta_{}, contact_theta_dot_{};  // where the contact was evaluated last
     NodalCompliance compliance_;                   // of the gap, with the friction of a bristle
     NodalCompliance across_;                       // of the gap to friction, where it couples

@@ -172,7 +172,7 @@ double ContactStepEnd::solve_to(double end, Ending ending) {
         }
         // So near that the force in between has no effect: the state is carried over.
         if (ending == Ending::release && std::fabs(dt) < kCarried * h &&
-            law_.elastic(std::fabs(contact_.end.gap)) * std::fabs(dt) * contact_.kick <
+            law_.at(contact_.end.radius).elastic(std::fabs(contact_.end.gap)) * std::fabs(dt) * contact_.kick <
                 kCarriedKick * step_.scale_modes) {
             carry = dt;
             return error;

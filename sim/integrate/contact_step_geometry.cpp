@@ -8,9 +8,7 @@
 namespace beamcam::sim {
 
 void ContactStep::evaluate(double t, const double* state, ContactKinematics<double>& touch) {
-    const CamPose pose = step_.system.cam(t);
-    const Frame<double> frame{std::sin(state[0]), std::cos(state[0]), state[1 + step_.n], pose.disc.x,
-                              pose.disc.y,        pose.velocity.x,    pose.velocity.y};
+    const Frame<double> frame = frame_of(step_.system.cam(), t, state[0], state[1 + step_.n]);
     expansion_.evaluate(state + 1, state + 2 + step_.n, frame, gap_offset_, hq_end_.data(), touch, kFootCorrections);
 }
 
@@ -48,6 +46,7 @@ void ContactStep::place_contact(int corrections) {
     frame_.sin = step_.sin;
     frame_.cos = step_.cos;
     frame_.theta_dot = step_.frame_rate();
+    if (frame_.osculating) frame_.turned = step_.theta - cam_angle_;
     ContactKinematics<Lanes>& contact = load.contact;
     expansion_.evaluate(step_.deflection(), step_.deflection_rate(), frame_, gap_offset_, hq_.data(), contact,
                         corrections);

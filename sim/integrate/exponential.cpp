@@ -30,7 +30,7 @@ double solve_flight(NodalStep& step, const StepTable& table) {
     auto status = FixedPoint::Status::going;
     for (int sweep = 0; sweep < kMostSweeps && status == FixedPoint::Status::going; ++sweep) {
         step.propagate(table);
-        if (!step.form->by_arrays()) step.propagate_rates(table);
+        if (!step.form->by_arrays() || step.system.spring()) step.propagate_rates(table);
         step.place_coordinates();
         status = iteration.add(step.update_forcing(table, nullptr));
     }

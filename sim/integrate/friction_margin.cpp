@@ -14,16 +14,16 @@ FrictionMargin::FrictionMargin(const NodalStep& step, const ContactStep& contact
     const BristleStep& bristle = contact.bristle();
     const ContactKinematics<Lanes>& nodes = contact.load.contact;
     const StepPolynomial acceleration = StepPolynomial::through(nodes.gap_rate).derivative(h_);
-    const auto margin = [&](int k, double gap, double gap_rate, double slip, double z) {
-        const ForceAndSlopes f = step.system.normal_law().linearized(-gap, -gap_rate, contact.approach);
+    const auto margin = [&](int k, double gap, double gap_rate, double slip, double z, double radius) {
+        const ForceAndSlopes f = step.system.normal_law().at(radius).linearized(-gap, -gap_rate, contact.approach);
         const double growth = -f.by_depth * gap_rate - f.by_rate * acceleration(2 * (time(k) / h_) - 1);
         at_[static_cast<std::size_t>(k)] = friction.margin(bristle.state(), f.force, growth, slip, z);
     };
-    margin(0, contact.start.gap, contact.start.gap_rate, contact.start.slip, bristle.start());
+    margin(0, contact.start.gap, contact.start.gap_rate, contact.start.slip, bristle.start(), contact.start.radius);
     for (int k = 0; k < kNodes; ++k)
-        margin(k + 1, nodes.gap[k], nodes.gap_rate[k], nodes.slip[k], bristle.deflection()[k]);
+        margin(k + 1, nodes.gap[k], nodes.gap_rate[k], nodes.slip[k], bristle.deflection()[k], nodes.radius[k]);
     const double z = step.system.bristle(step.next.data());
-    margin(kNodes + 1, contact.end.gap, contact.end.gap_rate, contact.end.slip, z);
+    margin(kNodes + 1, contact.end.gap, contact.end.gap_rate, contact.end.slip, z, contact.end.radius);
     deep_ = 0;
     for (const double m : at_) deep_ = std::max(deep_, kMarginRounding * std::fabs(m));
 }

@@ -21,17 +21,18 @@ ContactState GapProbe::evaluate(double t, const double* y) {
 bool GapProbe::expanded(double t, const double* y, ContactState& c) {
     const double length = system_.model().length();
     const int n = system_.coordinates();
-    const CamPose pose = system_.cam(t);
+    const TurningCam& cam = system_.cam();
     double hub = y[0], rate = y[n];
     if (system_.drive().prescribed()) {
         const HubMotion motion = system_.drive().motion(t);
         hub = motion.angle;
         rate = motion.rate;
     }
-    const Frame<double> frame{std::sin(hub), std::cos(hub),   rate,           pose.disc.x,
-                              pose.disc.y,   pose.velocity.x, pose.velocity.y};
+    const Frame<double> frame = frame_of(cam, t, hub, rate);
     if (!system_.gap_bound().nearly_straight(y + 1)) return false;
-    double x = frame.disc_x * frame.cos + frame.disc_y * frame.sin - system_.problem().hub.radius;
+    const Vec2 along{frame.cos, frame.sin}, across = perp(along);
+    const Vec2 facing = cam.disc(t, dot(across, cam.axis()) < 0 ? across : -across).centre;
+    double x = dot(facing, along) - system_.problem().hub.radius;
     ContactKinematics<double> touch;
     for (int i = 0; i < kMostCentres; ++i) {
         if (!(x > 0 && x < length)) break;
@@ -47,6 +48,7 @@ bool GapProbe::expanded(double t, const double* y, ContactState& c) {
         c.gap_rate = touch.gap_rate;
         c.slip = touch.slip;
         c.normal = {touch.nx * frame.cos - touch.ny * frame.sin, touch.nx * frame.sin + touch.ny * frame.cos};
+        c.disc = cam.disc(t, c.normal);
         return true;
     }
     return false;

@@ -8,7 +8,7 @@ namespace beamcam::sim {
 // The ledger of the step that ends at s.end, in modes.
 void NodalStep::finish_ledger(const ContactLoad* load) {
     ExponentialSegment& s = segment;
-    s.ledger_changes = load || form->damped || form->prescribed || system.drive().has_torque();
+    s.ledger_changes = load || form->damped || form->prescribed || system.drive().has_torque() || system.spring();
     if (!s.ledger_changes) {
         std::copy_n(s.ledger0, kLedgerSize, s.end.begin() + system.controlled);
         return;
@@ -17,6 +17,7 @@ void NodalStep::finish_ledger(const ContactLoad* load) {
     if (form->damped)
         for (std::size_t i = 0; i < n; ++i)
             if (form->oscillators[i].gamma > 0) s.rate[kLossStructural] += form->mass * s.f[i] * s.resolved_rate(i);
+    if (const auto& spring = system.spring()) s.rate[kLossHub] = spring->damping * hub_rate() * hub_rate();
     s.boundary0 = s.drive_boundary(s.t0, start_.data());
     drive_power(load);
     if (load) {
@@ -39,14 +40,15 @@ void NodalStep::drive_power(const ContactLoad* load) {
     if (system.drive().has_torque()) {
         Lanes hub_rate = s.theta_dot;  // and the part of α̇ that the nodes resolve
         for (std::size_t i = 0; i < n; ++i) hub_rate += form->h[i] * s.resolved_rate(i);
-        s.rate[kWorkDrive] = torque * hub_rate;
+        s.rate[kWorkDrive] = drive_torque_ * hub_rate;
     }
     if (!form->prescribed) return;
     Lanes follow{}, jerk{};  // Uᵀq; of the hub
     for (std::size_t i = 0; i < n; ++i) follow += form->U[i] * s.q[i];
     for (int l = 0; l < kNodes; ++l) jerk += (acceleration_[l] / s.h) * gauss.slope[static_cast<std::size_t>(l)];
     s.rate[kWorkDrive] = jerk * follow + (inertia_ ? drive_power_by_inertia() : drive_power_by_arrays());
-    // The drive balances the moment of the contact.
+    // The drive balances the moments of spring and contact.
+    s.rate[kWorkDrive] -= s.theta_dot * torque;
     if (load) s.rate[kWorkDrive] -= s.theta_dot * load->torque();
 }
 

@@ -105,12 +105,35 @@ void NodalStep::place_hub(double h) {
         s.theta_dot = theta_dot0 + acceleration * tau;
         acceleration_ = Lanes{};
     }
-    torque = Lanes{};
+    drive_torque_ = Lanes{};
     if (system.drive().has_torque())
-        for (int k = 0; k < kNodes; ++k) torque[k] = system.drive().torque(time[k]);
+        for (int k = 0; k < kNodes; ++k) drive_torque_[k] = system.drive().torque(time[k]);
+    for (std::size_t i = 0; system.spring() && i < n; ++i) {
+        s.q[i] = Lanes{} + s.q0[i];
+        s.v[i] = Lanes{} + s.v0[i];
+    }
+    place_torque();
     frame_angle_ = theta;
     evaluate_angle();
     if (inertia_ && !form->prescribed) s.p_dot = torque - form->gravity * form->S * cos;
+}
+
+Lanes NodalStep::hub_angle() const {
+    Lanes angle = theta;
+    for (std::size_t i = 0; i < n; ++i) angle += form->h[i] * segment.q[i];
+    return angle;
+}
+
+Lanes NodalStep::hub_rate() const {
+    Lanes rate = segment.theta_dot;
+    for (std::size_t i = 0; i < n; ++i) rate += form->h[i] * segment.v[i];
+    return rate;
+}
+
+void NodalStep::place_torque() {
+    torque = drive_torque_;
+    if (const auto& spring = system.spring())
+        torque -= spring->stiffness * (hub_angle() - spring->free_angle) + spring->damping * hub_rate();
 }
 
 void NodalStep::evaluate_angle() {
@@ -149,6 +172,7 @@ void NodalStep::propagate(const StepTable& table) {
 double NodalStep::update_forcing(const StepTable& table, const ContactLoad* load) {
     BEAMCAM_ASSERT(table.h > 0 && table.rows.size() == n);
     BEAMCAM_ASSERT(!load || load->jn.size() == n);
+    place_torque();
     return inertia_ ? update_by_inertia(table, load) : update_by_arrays(table, load);
 }
 

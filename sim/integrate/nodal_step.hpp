@@ -66,10 +66,14 @@ struct NodalStep {
     long& evaluations;  // of the forcing at a node
     double theta_dot0 = 0;
     double scale_modes = 1, scale_theta_dot = 1, scale_theta = 1;
-    Lanes time{}, theta{}, torque{};  // theta: of the rigid turn
-    Lanes sin{}, cos{};               // of the frame
+    Lanes time{}, theta{};  // theta: of the rigid turn
+    Lanes torque{};         // of drive and spring on the hub
+    Lanes sin{}, cos{};     // of the frame
 
   private:
+    Lanes hub_angle() const;
+    Lanes hub_rate() const;
+    void place_torque();
     void evaluate_angle();
     void advance_angle(const Lanes& to);
     double set_angle(double h);
@@ -84,7 +88,7 @@ struct NodalStep {
     Lanes drive_power_by_inertia() const;
 
     double rtol_, atol_;
-    Lanes acceleration_{};
+    Lanes acceleration_{}, drive_torque_{};
     std::vector<Lanes> base_q_, base_v_, bq_, gq_;
     std::vector<double> start_;  // of the step, in modes
     // These are null and empty where the modes are the coordinates.

@@ -37,6 +37,7 @@ const System::EnergyBalance& ChannelEvaluator::energy_balance() {
     if (!balance_known_) {
         balance_ = balance_without_beam();
         balance_.energies = model().energies();
+        balance_.spring = spring_energy();
         balance_known_ = true;
     }
     return balance_;
@@ -118,7 +119,7 @@ double ChannelEvaluator::value(Channel channel) {
         case ChannelKind::contact_s:
             return place_on_rim();
         case ChannelKind::cam_angle:
-            return system_.cam(t_).angle;
+            return system_.cam().angle(t_);
         case ChannelKind::energy_kinetic:
             return energies().kinetic;
         case ChannelKind::energy_potential:
@@ -127,6 +128,10 @@ double ChannelEvaluator::value(Channel channel) {
             return energies().elastic;
         case ChannelKind::energy_contact:
             return balance_without_beam().contact;
+        case ChannelKind::energy_spring:
+            return spring_energy();
+        case ChannelKind::loss_hub:
+            return ledger(kLossHub);
         case ChannelKind::loss_structural:
             return ledger(kLossStructural);
         case ChannelKind::loss_contact:
@@ -158,6 +163,10 @@ double ChannelEvaluator::value(Channel channel) {
     return kNan;
 }
 
+double ChannelEvaluator::spring_energy() {
+    return system_.spring() ? system_.spring()->energy(model().hub_angle()) : 0;
+}
+
 // Across the tangent at the root, which is the hub's direction (S6).
 double ChannelEvaluator::tip(ChannelKind kind) {
     const Model& beam = model();
@@ -171,9 +180,9 @@ double ChannelEvaluator::tip(ChannelKind kind) {
 
 // Along the rim from the mark, in the sense in which angles grow.
 double ChannelEvaluator::place_on_rim() {
-    const double turn = std::atan2(contact().normal.y, contact().normal.x) - system_.cam(t_).angle;
+    const double turn = std::atan2(contact().normal.y, contact().normal.x) - system_.cam().angle(t_);
     const double full = 2 * std::numbers::pi;
-    return system_.problem().cam->radius * (turn - full * std::floor(turn / full));
+    return system_.cam().shape().arc(turn - full * std::floor(turn / full));
 }
 
 // The paper's eq. (6) and the same with the sign that N ≥ 0 gives: J θ̈ = N x − ½mgL cos θ (S41).
@@ -289,16 +298,15 @@ Pose ChannelEvaluator::pose(int stations) {
         pose.moment.push_back(beam.bending_moment(x));
     }
     if (!system_.has_cam()) return pose;
-    const Cam& cam = *system_.problem().cam;
-    const CamPose at = system_.cam(t_);
+    const TurningCam& cam = system_.cam();
     const ContactState& c = contact();
-    pose.cam_centre = cam.centre;
-    pose.disc_centre = at.disc;
-    pose.cam_angle = at.angle;
+    pose.cam_centre = cam.axis();
+    pose.disc_centre = cam.is_disc() ? c.disc.centre : cam.axis();
+    pose.cam_angle = cam.angle(t_);
     Nearest nearest;
     nearest.x = c.x;
     nearest.s = value({ChannelKind::contact_s});
-    nearest.point = at.disc + cam.radius * c.normal;
+    nearest.point = c.disc.centre + c.disc.radius * c.normal;
     nearest.normal = c.normal;
     nearest.gap = c.gap;
     nearest.force = c.force;

@@ -38,7 +38,8 @@ class ChannelEvaluator {
   private:
     const double* acceleration();  // ξ̈
     const BeamLoads& loads();
-    double hub_acceleration();                     // θ̈
+    double hub_acceleration();  // θ̈
+    double spring_energy();
     System::EnergyBalance balance_without_beam();  // perhaps with the beam's energies
     double ledger(Ledger entry) const { return y_[static_cast<std::size_t>(system_.controlled + entry)]; }
     double rate_of_mode(int index) const;

@@ -22,7 +22,7 @@ void ImpactRecorder::touch(double t, const double* y, const ContactState& c) {
     Impact impact;
     impact.t_start = t;
     impact.x = c.x;
-    impact.cam_angle = evaluator_.system().cam(t).angle;
+    impact.cam_angle = evaluator_.system().cam().angle(t);
     impact.v_n_before = c.gap_rate;
     impact.v_t_before = c.slip;
     impact.penetration_peak = std::max(0.0, -c.gap);

@@ -8,11 +8,11 @@
 
 namespace beamcam::sim {
 
-// The foot of the perpendicular from the cam centre B on the centre line (S24).
+// The foot of the perpendicular from the cam on the centre line (S24).
 struct Nearest {
     double x = 0;         // arc position on the beam, 0…L [m]
-    double s = 0;         // arc on the disc, counter-clockwise from its mark [m], 0…2πR
-    Vec2 point;           // on the disc's surface, n·R from B [m]
+    double s = 0;         // arc on the cam, counter-clockwise from its mark [m]
+    Vec2 point;           // on the cam's surface [m]
     Vec2 normal;          // n, from the cam to the beam
     double gap = 0;       // < 0: penetration [m]
     double force = 0;     // normal contact force N >= 0 [N]; 0 when apart
@@ -27,7 +27,7 @@ struct Pose {
     std::vector<Vec2> centreline;    // equally spaced in arc position, root first, tip last [m]
     std::vector<double> moment;      // bending moment EI κ at the same stations [N m]
     Vec2 cam_centre;                 // C (axis) [m]; meaningless without a cam
-    Vec2 disc_centre;                // B [m]
+    Vec2 disc_centre;                // B [m]; C of a cam with a profile
     double cam_angle = 0;            // ψ, unwrapped [rad]; the mark is the ray C→B
     std::optional<Nearest> nearest;  // absent without a cam
 };

@@ -224,7 +224,7 @@ bool StepSamples::ends_suffice(const Instants& part, std::size_t channel, const 
     const Problem& problem = system.problem();
     const double reach = std::fabs(problem.hub.radius) + problem.beam.length;
     const double speed = bounds->theta_dot * reach + bounds->deflection_speed +
-                         problem.cam->eccentricity * std::fabs(problem.cam->speed);
+                         system.cam().shape().largest_slope() * std::fabs(system.cam().speed());
     const double stray = 0.5 * speed * (part.back() - part.front());
     const auto [low, high] = std::minmax(of.value.front(), of.value.back());
     return !needs_more(channel, std::max(low, stray), high, stray);
@@ -262,7 +262,7 @@ void StepSamples::place_contact(double t) {
     if (phase.held) return;
     ContactState c = probe_.evaluate(t, y_.data());
     if (phase.touching) {
-        c.force = system.normal_law().force(-c.gap, -c.gap_rate, phase.approach);
+        c.force = system.normal_law().at(c.disc.radius).force(-c.gap, -c.gap_rate, phase.approach);
         c.friction = system.friction().force(phase.friction, c.force, c.slip, system.bristle(y_.data()));
     }
     evaluator_.set_contact(c);

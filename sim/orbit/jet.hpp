@@ -16,6 +16,8 @@ consteval int derivatives_of() {
         return 0;
 }
 
+inline double value_of(double a) { return a; }
+
 // A value and its derivatives, each a number of type V or several of them side by side.
 template <class V, class D>
 struct Dual {
@@ -76,6 +78,12 @@ struct Dual {
     friend bool operator==(const Dual& a, const Dual& b) { return a.v == b.v; }
 
     // The functions of contact_lanes.hpp.
+    friend double value_of(const Dual& a) { return value_of(a.v); }
+    friend double sign_of(const Dual& a) { return value_of(a) < 0 ? -1 : 1; }
+    friend void direction(const Dual& x, const Dual& y, Dual& out) {
+        direction(x.v, y.v, out.v);
+        out.d = (x.v * y.d - y.v * x.d) / (x.v * x.v + y.v * y.v);
+    }
     friend void root(const Dual& a, Dual& out) { out = sqrt(a); }
     friend void sine_and_cosine(const Dual& a, Dual& sine, Dual& cosine) {
         sine = sin(a);

@@ -4,6 +4,18 @@
 
 namespace beamcam::sim {
 
+// The outline of the cam about an angle, by the derivatives h″ = ρ − h and h‴ = ρ′ − h′.
+template <class T>
+static void outline(const CamShape& cam, const T& alpha, T& h, T& slope, T& radius) {
+    const double a = value_of(alpha), bend = cam.radius_slope(a);
+    const CamPoint at = cam.at(a);
+    const double h2 = at.radius - at.h, h3 = bend - at.slope;
+    const T turn = alpha - a;
+    h = at.h + turn * (at.slope + turn * (0.5 * h2 + (h3 / 6) * turn));
+    slope = at.slope + turn * (h2 + (0.5 * h3) * turn);
+    radius = at.radius + bend * turn;
+}
+
 JetState::JetState(const System& system, double time, const double* y, const Phase& phase)
     : t(time),
       xi(y, y + system.coordinates()),
@@ -14,6 +26,7 @@ JetState::JetState(const System& system, double time, const double* y, const Pha
 ModalJets::ModalJets(System& system)
     : problem_(system.problem()),
       model_(dynamic_cast<const ModalModel&>(system.model())),
+      cam_(system.cam()),
       drive_(system.drive()),
       law_(system.normal_law()),
       friction_(system.friction()),
@@ -53,9 +66,14 @@ void ModalJets::assemble(const JetState& s) {
     }
     inertia_ = m.J + qbq;
     f[0] = -2 * (s.rate[0] * coriolis) - g * (m.S * cosine - wq * sine - 0.5 * (cosine * qgq));
-    if (!drive_.has_torque()) return;
-    const double torque = drive_.torque(s.t.v);
-    for (int i = 0; i < n_; ++i) f[i] += torque * model_.hub_row()[i];
+    const std::optional<HubSpring>& spring = problem_.hub.spring;
+    if (!drive_.has_torque() && !spring) return;
+    Jet torque = drive_.has_torque() ? drive_.torque(s.t.v) : 0;
+    const double* hub = model_.hub_row();
+    for (int i = 0; spring && i < n_; ++i)
+        torque -= hub[i] * (spring->stiffness * s.xi[i] + spring->damping * s.rate[i]);
+    if (spring) torque += spring->stiffness * spring->free_angle;
+    for (int i = 0; i < n_; ++i) f[i] += hub[i] * torque;
 }
 
 // f ← M⁻¹f; a prescribed hub has its own acceleration if `driven`, else none.
@@ -77,16 +95,35 @@ void ModalJets::solve(const JetState& s, std::vector<Jet>& forces, bool driven) 
     }
 }
 
+// The disc of a contact turns with the cam. At an end of the beam the disc at the contact serves for a cam of any
+// shape.
+template <class T>
+void ModalJets::place_disc(const T& psi, const ContactState& near, Frame<T>& frame) const {
+    Vec2 arm{problem_.cam->eccentricity, 0};  // in the cam's frame
+    frame.radius = problem_.cam->radius;
+    if (!cam_.is_disc()) {
+        const Vec2 n = unit(std::atan2(near.normal.y, near.normal.x) - value_of(psi));
+        const CamPoint at = cam_.shape().at(std::atan2(n.y, n.x));
+        arm = (at.h - at.radius) * n + at.slope * perp(n);
+        frame.radius = at.radius;
+    }
+    const T c = cos(psi), s = sin(psi), x = arm.x * c - arm.y * s, y = arm.x * s + arm.y * c;
+    frame.disc_x = cam_.axis().x + x;
+    frame.disc_y = cam_.axis().y + y;
+    frame.disc_vx = cam_.speed() * y;
+    frame.disc_vy = -cam_.speed() * x;
+}
+
 // The contact in a state of jets, or of jets that depend on time. The derivative of the foot is that of a step of
 // Newton's method for r′·(r − B) = 0 (S24), and the mixed derivative that of another.
 template <class T>
 ContactKinematics<T> ModalJets::kinematics(const std::vector<T>& xi, const std::vector<T>& rate, const T& t,
                                            const ContactState& near, double gap_offset, std::vector<T>& hq) {
-    const Cam& cam = *problem_.cam;
-    const T psi = cam.phase - cam.speed * t;  // (S23)
-    const T x = cam.eccentricity * cos(psi), y = cam.eccentricity * sin(psi);
-    const Frame<T> frame{sin(xi[0]),       cos(xi[0]),    rate[0],       cam.centre.x + x,
-                         cam.centre.y + y, cam.speed * y, -cam.speed * x};
+    const T psi = problem_.cam->phase - cam_.speed() * t;  // (S23)
+    Frame<T> frame{sin(xi[0]), cos(xi[0]), rate[0]};
+    frame.turned = xi[0] - psi;
+    frame.osculating = !cam_.is_disc() && !near.at_end;
+    if (!frame.osculating) place_disc(psi, near, frame);
     if (expansion_->at() != near.x) {
         expansion_->forget();
         expansion_->centre(near.x);
@@ -154,9 +191,10 @@ ModalJets::Forces ModalJets::forces(JetState& s, const Phase& phase, const Conta
         f.normal = constraint_force(s, near);
     } else {
         const Jet &gap = contact_.gap, &rate = contact_.gap_rate, &approach = s.approach;
-        const ForceAndSlopes law = law_.linearized(-gap.v, -rate.v, approach.v);
+        const ForceAndSlopes law = law_.at(contact_.radius.v).linearized(-gap.v, -rate.v, approach.v);
         // δ̇ and δ̇₋ appear in (S30) as their quotient.
         f.normal = {law.force, -law.by_depth * gap.d - law.by_rate * (rate.d - (rate.v / approach.v) * approach.d)};
+        if (law_.hertz_radius > 0) f.normal.d += (0.5 * law.force / contact_.radius.v) * contact_.radius.d;
     }
     if (friction_.none()) return f;
     if (!friction_.bristle)

@@ -49,6 +49,8 @@ class ModalJets {
     template <class T>
     ContactKinematics<T> kinematics(const std::vector<T>& xi, const std::vector<T>& rate, const T& t,
                                     const ContactState& near, double gap_offset, std::vector<T>& hq);
+    template <class T>
+    void place_disc(const T& psi, const ContactState& near, Frame<T>& frame) const;
     void place_hub(JetState& s) const;
     Jet gap_acceleration_at_rest(const JetState& s, const ContactState& near);
     Jet constraint_force(const JetState& s, const ContactState& near);
@@ -58,6 +60,7 @@ class ModalJets {
 
     const Problem problem_;
     const ModalModel model_;  // tables
+    const TurningCam cam_;
     const DriveLaw drive_;
     const NormalLaw law_;
     const FrictionLaw friction_;

@@ -62,7 +62,7 @@ void Saltation::record_touch(const Instant& at) {
     if (!(-near_.gap_rate > kRestSpeed)) return;
     BeamPoint p;
     probe_.model().point(near_.x, p);
-    const double beyond = -dot(p.r1, p.r - probe_.cam(at.t).disc) / dot(p.r1, p.r1);
+    const double beyond = -dot(p.r1, p.r - near_.disc.centre) / dot(p.r1, p.r1);
     touches_.push_back({at.t, -near_.gap_rate, at.t - left_, near_.x, near_.x + beyond - probe_.problem().beam.length});
 }
 

@@ -22,7 +22,9 @@ bool is_of_the_paper(const Beam& beam) {
            beam.youngs_modulus == paper.youngs_modulus;
 }
 
-bool is_of_the_paper(const Cam& cam) { return cam.radius == Cam{}.radius && !cam.material && !cam.youngs_modulus; }
+bool is_of_the_paper(const Cam& cam) {
+    return !cam.profile && cam.radius == Cam{}.radius && !cam.material && !cam.youngs_modulus;
+}
 
 std::string about_slenderness(const Beam& beam) {
     const double slenderness = beam.length / (2 * section_properties(beam).c_max), loss = shear_correction(beam);

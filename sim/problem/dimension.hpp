@@ -26,7 +26,9 @@ constexpr Dimension kDensity{-3, 1, 0, 0};
 constexpr Dimension kPressure{-1, 1, -2, 0};
 constexpr Dimension kInertia{2, 1, 0, 0};
 constexpr Dimension kTorque{2, 1, -2, 0};
-constexpr Dimension kSpringStiffness{0, 1, -2, 0};  // N/m
+constexpr Dimension kSpringStiffness{0, 1, -2, 0};    // N/m
+constexpr Dimension kTorsionStiffness{2, 1, -2, -1};  // N m/rad
+constexpr Dimension kTorsionDamping{2, 1, -1, -1};    // N m s/rad
 // N/m^n, the stiffness of a contact with exponent n.
 constexpr Dimension contact_stiffness(double n) { return {1 - n, 1, -2, 0}; }
 }  // namespace dimension

@@ -61,11 +61,19 @@ static void visit(Visitor& v, Drive& drive) {
              "A table of hub angles: a natural cubic spline, continued at constant speed outside.")});
 }
 
+static void visit(Visitor& v, HubSpring& s) {
+    v.number("stiffness", s.stiffness, dim::kTorsionStiffness, kNotNegative, "Stiffness k.");
+    v.number("free_angle", s.free_angle, dim::kAngle, kAny, "Hub angle θ_f at which the spring has no torque.");
+    v.number("damping", s.damping, dim::kTorsionDamping, kNotNegative, "Viscous damping c, parallel to the spring.");
+}
+
 static void visit(Visitor& v, Hub& hub) {
     v.number("radius", hub.radius, dim::kLength, kAny,
              "Distance from the fixed axis O to the root of the beam; negative: the root lies beyond the axis.");
     v.number("inertia", hub.inertia, dim::kInertia, kNotNegative, "Moment of inertia about O.");
     v.object("drive", hub.drive, "Drive of the hub.");
+    v.object(written_if(hub.spring.has_value(), "spring"), hub.spring,
+             "Spring and damper between the hub and the ground, torque −k(θ − θ_f) − c θ̇; null: none.");
 }
 
 // ---- beam ------------------------------------------------------------------------------------

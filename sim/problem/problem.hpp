@@ -49,10 +49,20 @@ bool is_prescribed(const Drive& drive);
 // Free, or driven by a constant torque.
 bool is_independent_of_time(const Drive& drive);
 
+struct HubSpring {          // torque −k(θ − θ_f) − c θ̇ on the hub (S38a)
+    double stiffness = 0;   // k [N m/rad], >= 0
+    double free_angle = 0;  // θ_f [rad]
+    double damping = 0;     // c [N m s/rad], >= 0
+    double torque(double theta, double theta_dot) const {
+        return -stiffness * (theta - free_angle) - damping * theta_dot;
+    }
+    double energy(double theta) const { return 0.5 * stiffness * (theta - free_angle) * (theta - free_angle); }
+};
 struct Hub {
     double radius = 0;   // a [m]; may be negative (root beyond the axis), a > −length
     double inertia = 0;  // I_h [kg m²], >= 0
     Drive drive;
+    std::optional<HubSpring> spring = {};
 };
 
 // ---- beam ------------------------------------------------------------------------------------

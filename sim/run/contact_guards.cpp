@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "sim/contact/constants.hpp"
 #include "sim/dynamics/failure.hpp"
@@ -10,6 +11,8 @@
 
 namespace beamcam::sim {
 namespace {
+
+constexpr double kPassedKink = 1e-9;  // [rad]: the rounding of an event's place on the cam, and its uncertainty
 
 // Instants at equal intervals in a segment.
 struct Instants {
@@ -144,6 +147,30 @@ Event ContactGuards::first_event(const Segment& segment) {
     if (at && (best.kind == EventKind::none || *at < best.t) && may_change_friction())
         return {EventKind::friction, *at};
     return best;
+}
+
+// The normal's angle α in the cam's frame moves by less than half a turn in a step of contact. A step that begins on a
+// kink has passed it.
+std::optional<double> ContactGuards::first_kink(const Segment& segment) {
+    const TurningCam& cam = probe_.system.cam();
+    if (cam.shape().kinks().empty()) return std::nullopt;
+    constexpr double kTurn = 2 * std::numbers::pi;
+    const auto alpha = [&](double t) {
+        const Vec2 n = probe_.gap(segment, t).normal;
+        return std::atan2(n.y, n.x) - cam.angle(t);
+    };
+    const double from = alpha(segment.t0), turned = std::remainder(alpha(segment.t1) - from, kTurn);
+    double nearest = std::fabs(turned), kink = 0;
+    for (const double k : cam.shape().kinks()) {
+        const double ahead = std::copysign(1.0, turned) * std::remainder(k - from, kTurn);
+        if (!(ahead > kPassedKink && ahead < nearest)) continue;
+        nearest = ahead;
+        kink = k;
+    }
+    if (nearest == std::fabs(turned)) return std::nullopt;
+    const auto beyond = [&](double t) { return std::remainder(alpha(t) - kink, kTurn); };
+    const double before = beyond(segment.t0), after = beyond(segment.t1);
+    return before * after < 0 ? find_root(beyond, segment.t0, segment.t1, before, after) : segment.t1;
 }
 
 // False after too many changes at one instant: the friction state then lasts for this step.

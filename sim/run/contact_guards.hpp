@@ -17,6 +17,8 @@ class ContactGuards {
     Event first_event(const Segment& segment);
     // The instant at which the constraint force of sustained contact becomes tensile.
     Event first_lift(const Segment& segment);
+    // The instant at which the contact passes a jump of the cam's radius of curvature or its derivative.
+    std::optional<double> first_kink(const Segment& segment);
 
   private:
     // The guard functions at one instant.

@@ -105,8 +105,12 @@ void Run::process(const Segment& segment) {
 
 Event Run::first_event(const Segment& segment) {
     if (!problem_.cam) return {};
-    if (state_.phase.held) return contact_guards_.first_lift(segment);
-    if (state_.phase.touching) return contact_guards_.first_event(segment);
+    if (state_.phase.touching) {
+        const Event event =
+            state_.phase.held ? contact_guards_.first_lift(segment) : contact_guards_.first_event(segment);
+        const auto kink = contact_guards_.first_kink(segment);
+        return kink && (event.kind == EventKind::none || *kink < event.t) ? Event{EventKind::kink, *kink} : event;
+    }
     const auto touch = touch_search_.first_touch(segment);
     return touch ? Event{EventKind::touch, *touch} : Event{};
 }

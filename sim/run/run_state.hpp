@@ -9,7 +9,7 @@
 
 namespace beamcam::sim {
 
-enum class EventKind { none, touch, release, clamp, friction, lift };
+enum class EventKind { none, touch, release, clamp, friction, lift, kink };
 
 struct Event {
     EventKind kind = EventKind::none;

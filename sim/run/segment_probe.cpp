@@ -37,11 +37,11 @@ SegmentProbe::Range SegmentProbe::range(const Segment& segment) {
 }
 
 int SegmentProbe::pieces_by_travel(const Segment& segment, const Range& range) {
-    const Cam& cam = *system.problem().cam;
+    const CamShape& shape = system.cam().shape();
     const double half = 0.5 * (segment.t1 - segment.t0);
-    const double travel =
-        2 * (system.gap_bound().travel(range.spread.data()) + half * std::fabs(cam.speed) * cam.eccentricity);
-    return limited(travel / (0.5 * cam.radius));
+    const double travel = 2 * (system.gap_bound().travel(range.spread.data()) +
+                               half * std::fabs(system.cam().speed()) * shape.largest_slope());
+    return limited(travel / (0.5 * shape.inner_radius()));
 }
 
 int SegmentProbe::limited(double pieces) {

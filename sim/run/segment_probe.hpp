@@ -37,7 +37,8 @@ class SegmentProbe {
         std::array<double, kMaxSize> middle, spread;
     };
     Range range(const Segment& segment);
-    // Subintervals in which the beam moves by at most half the cam's radius, so that it cannot pass the cam unnoticed.
+    // Subintervals in which the beam moves by at most half the radius of a disc within the cam, so that it cannot pass
+    // the cam unnoticed.
     int pieces_by_travel(const Segment& segment, const Range& range);
     int limited(double pieces);
     double gap_rounding() const { return kGapRounding * system.problem().beam.length; }

@@ -71,19 +71,20 @@ bool TouchSearch::opens(const Segment& segment, double t) {
     return pull > 0 && (c.gap_rate > 0 || c.gap_rate * c.gap_rate < 2 * pull * probe_.gap_rounding());
 }
 
-// Upper bound of |g̈| from the terms of (S44), for penetrations up to half the disc's radius and distances of its centre
-// from the foot up to `far`. Infinite if the beam may bend so much that the foot is not unique.
+// Upper bound of |g̈| from the terms of (S44), for penetrations up to half the cam's least radius of curvature and
+// distances of the foot from the centre of curvature up to `far`. Infinite if the beam may bend so much that the foot
+// is not unique.
 double TouchSearch::gap_acceleration_bound(const MotionBounds& b, double far) const {
-    const Cam& cam = *problem().cam;
-    const double near = 0.5 * cam.radius, arm = cam.eccentricity * std::fabs(cam.speed);
+    const CamShape& shape = cam().shape();
+    const double near = 0.5 * shape.least_radius(), arm = shape.largest_arm() * std::fabs(cam().speed());
     if (!(b.curvature * far < kFootStiffness)) return std::numeric_limits<double>::infinity();
-    far = std::max(far, reach() + cam.radius);
+    far = std::max(far, reach() + shape.largest_radius());
     const double speed = b.theta_dot * reach() + b.deflection_speed + arm;  // |w|, w = ṙ − Ḃ
     const double turn = b.theta_dot + b.slope_speed;                        // |ṙ′|
     const double slide = (turn * far + speed) / kFootStiffness;             // |ẋ|
     const double point = b.deflection_acceleration + b.theta_ddot * reach() + 2 * b.theta_dot * b.deflection_speed +
                          b.theta_dot * b.theta_dot * reach() + b.deflection_speed * b.slope_speed;  // |r̈|
-    return (speed + slide) * speed / near + point + turn * slide + cam.eccentricity * cam.speed * cam.speed;
+    return (speed + slide) * speed / near + point + turn * slide + arm * std::fabs(cam().speed());
 }
 
 // Conservative advancement: from an open gap g with rate ġ no touch can occur before g + ġτ − ½Mτ² = 0, with M ≥ |g̈|.
@@ -93,8 +94,8 @@ double TouchSearch::gap_acceleration_bound(const MotionBounds& b, double far) co
 std::optional<double> TouchSearch::by_advancement(const Segment& segment, const MotionBounds& bounds) {
     const double h = segment.t1 - segment.t0;
     const double no_spread[kMaxSize] = {};
-    const double speed = bounds.theta_dot * reach() + bounds.deflection_speed +
-                         problem().cam->eccentricity * std::fabs(problem().cam->speed);
+    const double speed =
+        bounds.theta_dot * reach() + bounds.deflection_speed + cam().shape().largest_slope() * std::fabs(cam().speed());
     BEAMCAM_ASSERT(state_.t == segment.t0);
     if (lower_bound(segment.t0, 0, state_.y.data(), no_spread) > h * speed) return {};
 
@@ -102,7 +103,7 @@ std::optional<double> TouchSearch::by_advancement(const Segment& segment, const 
     if (t != state_.phase_start) t = while_far(segment, bounds, t);
     if (t == segment.t1) return {};
     ContactState c = probe_.gap(segment, t);
-    const double far = problem().cam->radius + probe_.system.offset() + std::max(c.gap, 0.0) + h * speed;
+    const double far = cam().shape().largest_radius() + probe_.system.offset() + std::max(c.gap, 0.0) + h * speed;
     const double most = gap_acceleration_bound(bounds, far);
     if (!std::isfinite(most)) return by_resolving(segment);
     const Advancement gap{most, most};
@@ -122,8 +123,7 @@ std::optional<double> TouchSearch::by_advancement(const Segment& segment, const 
 // gap is not evaluated for it. Ends where this no longer advances by a good part of the step.
 double TouchSearch::while_far(const Segment& segment, const MotionBounds& bounds, double t) {
     if (!std::isfinite(bounds.deflection)) return t;
-    const Cam& cam = *problem().cam;
-    const double speed = bounds.theta_dot * reach() + cam.eccentricity * std::fabs(cam.speed);
+    const double speed = bounds.theta_dot * reach() + cam().shape().largest_slope() * std::fabs(cam().speed());
     const double worth = bounds.deflection + kWorthwhileAdvance * (segment.t1 - segment.t0) * speed;
     const double none[kMaxSize] = {};
     double straight[kMaxSize] = {};
@@ -174,7 +174,7 @@ std::optional<double> TouchSearch::falling(const Segment& segment, double t, Con
         next = std::min(next, segment.t1);
         c = probe_.gap(segment, next);
         if (next == segment.t1 && c.gap > 0) return {};
-        if (next == t || c.gap == 0 || std::fabs(c.gap) < kTouchGap * problem().cam->radius) return next;
+        if (next == t || c.gap == 0 || std::fabs(c.gap) < kTouchGap * cam().shape().largest_radius()) return next;
         (c.gap > 0 ? low : high) = next;
         t = next;
     }

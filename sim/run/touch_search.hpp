@@ -31,6 +31,7 @@ class TouchSearch {
     double reach() const { return std::fabs(problem().hub.radius) + problem().beam.length; }
     double lower_bound(double t, double h, const double* xi, const double* spread) const;
     const Problem& problem() const { return probe_.system.problem(); }
+    const TurningCam& cam() const { return probe_.system.cam(); }
 
     SegmentProbe& probe_;
     const RunState& state_;

@@ -27,6 +27,7 @@ void Transitions::start(const InitialContact* continued) {
 void Transitions::apply(const Event& event) {
     switch (event.kind) {
         case EventKind::none:
+        case EventKind::kink:  // only ends the step
             break;
         case EventKind::clamp:  // only ends the step, so that the kink lies between two steps
             state_.clamp_side = -state_.clamp_side;

@@ -8,9 +8,10 @@ namespace beamcam::sim {
 
 bool RigidMotion::applies(const Problem& p, const Sampling& sampling) {
     const bool sampled = sampling.kind == SampleKind::impacts || sampling.kind == SampleKind::section;
-    if (p.beam.model != ModelKind::rigid || !p.cam || p.contact.model != ContactModel::restitution ||
-        !is_independent_of_time(p.hub.drive) || !std::holds_alternative<NoFriction>(p.contact.friction) ||
-        p.solver.method != Method::automatic || !sampled || std::isfinite(sampling.end_time))
+    if (p.beam.model != ModelKind::rigid || !p.cam || p.cam->profile || p.hub.spring ||
+        p.contact.model != ContactModel::restitution || !is_independent_of_time(p.hub.drive) ||
+        !std::holds_alternative<NoFriction>(p.contact.friction) || p.solver.method != Method::automatic || !sampled ||
+        std::isfinite(sampling.end_time))
         return false;
     const double away = norm(p.cam->centre), reach = p.cam->radius + contact_offset(p),
                  margin = kInsideBeam * p.beam.length;

@@ -56,7 +56,7 @@ MotionSample Sampler::sample(double t, const double* y) {
     out[kTheta] = system_.model().hub_angle();
     out[kThetaDot] = system_.model().hub_rate();
     out[kCamPhase] = turn_fraction(t / span_.period);
-    if (system_.has_cam()) out[kCamAngle] = system_.cam(t).angle;
+    if (system_.has_cam()) out[kCamAngle] = system_.cam().angle(t);
     return out;
 }
 

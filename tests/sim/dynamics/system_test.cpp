@@ -2,8 +2,10 @@
 #include "sim/dynamics/system.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "sim/base/numerics.hpp"
+#include "tests/sim/cam/profiles.hpp"
 #include "tests/sim/support.hpp"
 
 namespace beamcam::sim::testing {
@@ -13,7 +15,8 @@ struct ContactCase {
     ModelKind model;
     Basis basis;
     double radius, offset;
-    int friction;  // 0 none, 1 coulomb, 2 stick-slip
+    int friction;          // 0 none, 1 coulomb, 2 stick-slip
+    bool profile = false;  // a cam of the lift and return law, and a spring with a damper at the hub
 };
 
 Problem contact_problem(const ContactCase& c) {
@@ -29,6 +32,10 @@ Problem contact_problem(const ContactCase& c) {
     p.cam->speed = 7;
     p.contact.stiffness = 1e5;
     p.contact.offset = c.offset;
+    if (c.profile) {
+        p.cam->profile = lift_and_return();
+        p.hub.spring = {3, -0.2, 0.1};
+    }
     if (c.friction == 1) p.contact.friction = CoulombFriction{0.3, 0.1};
     if (c.friction == 2) p.contact.friction = StickSlipFriction{0.3, 0.4, 2e4};
     return p;
@@ -38,7 +45,7 @@ std::string contact_case_name(const ::testing::TestParamInfo<ContactCase>& info)
     const ContactCase& c = info.param;
     const char* friction[] = {"Frictionless", "Coulomb", "StickSlip"};
     return label(name(c.model)) + label(name(c.basis)) + (c.radius != 0 ? "Radius" : "") +
-           (c.offset > 0 ? "Offset" : "") + friction[c.friction];
+           (c.offset > 0 ? "Offset" : "") + (c.profile ? "Profile" : "") + friction[c.friction];
 }
 
 // A state in which the beam is pressed `depth` into the cam near x.
@@ -72,6 +79,17 @@ std::vector<double> state_in_contact(System& system, Dice& dice, int count, bool
     return y;
 }
 
+// Distance of a point from the cam: the largest of its distances beyond the tangents.
+double distance_from_cam(const System& system, double t, Vec2 point) {
+    double distance = -1e9;
+    const TurningCam& cam = system.cam();
+    for (int i = 0; i < 20000; ++i) {
+        const double alpha = 2 * std::numbers::pi * i / 20000;
+        distance = std::max(distance, dot(point - cam.axis(), unit(alpha + cam.angle(t))) - cam.shape().at(alpha).h);
+    }
+    return distance;
+}
+
 class Contact_ : public ::testing::TestWithParam<ContactCase> {};
 
 TEST_P(Contact_, FootIsTheNearestPoint) {
@@ -81,17 +99,17 @@ TEST_P(Contact_, FootIsTheNearestPoint) {
     for (int repeat = 0; repeat < 6; ++repeat) {
         const std::vector<double> y = pressed_state(system, dice, dice.between(-0.1, 0.001), 0.3);
         const ContactState c = system.contact(0.3, y.data());
-        const Vec2 disc = system.cam(0.3).disc;
-        double nearest = 1e9;
+        const auto gap_at = [&](double x) {
+            BeamPoint at;
+            system.model().point(x, at);
+            return distance_from_cam(system, 0.3, at.r) - system.offset();
+        };
+        EXPECT_NEAR(gap_at(c.x), c.gap, 1e-8);  // half a step of the angles squared, times a radius
+        for (int i = -20; i <= 20; ++i) EXPECT_GE(gap_at(std::clamp(c.x + 1e-3 * i, 0.0, p.beam.length)), c.gap - 2e-8);
+        for (int i = 0; i <= 40; ++i) EXPECT_GE(gap_at(p.beam.length * i / 40), c.gap - 2e-8);
         BeamPoint point;
-        for (int i = 0; i <= 4000; ++i) {
-            system.model().point(p.beam.length * i / 4000, point);
-            nearest = std::min(nearest, norm(point.r - disc));
-        }
-        const double distance = c.gap + p.cam->radius + system.offset();
-        EXPECT_LE(distance, nearest + 1e-12);
-        EXPECT_NEAR(distance, nearest, 1e-6);  // half a grid step squared over twice the distance
         system.model().point(c.x, point);
+        const Vec2 disc = c.disc.centre;
         if (!c.at_end) {
             EXPECT_NEAR(dot(point.r1, point.r - disc), 0, 1e-12);
         }
@@ -118,6 +136,29 @@ TEST_P(Contact_, GapRateIsTheDerivativeOfTheGap) {
             },
             1e-4);
         EXPECT_NEAR(slope, rate, 1e-9);
+    }
+}
+
+// The gap of a motion with constant ξ̇, whose second derivative is g̈ at ξ̈ = 0 (S44).
+TEST_P(Contact_, GapAccelerationIsTheDerivativeOfTheGapRate) {
+    Problem p = contact_problem(GetParam());
+    p.gravity = 0;
+    p.hub.drive = FreeDrive{};
+    System system(p);
+    const ContactGeometry geometry(p, system.model(), system.cam());
+    Dice dice(15);
+    for (int repeat = 0; repeat < 4; ++repeat) {
+        const std::vector<double> y = pressed_state(system, dice, 1e-3, 0.2);
+        const int n = system.coordinates();
+        const double slope = scalar_slope_at_zero(
+            [&](double e) {
+                std::vector<double> z = y;
+                for (int i = 0; i < n; ++i) z[static_cast<std::size_t>(i)] += e * y[static_cast<std::size_t>(n + i)];
+                return system.contact(0.2 + e, z.data()).gap_rate;
+            },
+            1e-5);
+        const ContactState c = system.contact(0.2, y.data());
+        EXPECT_NEAR(slope, geometry.gap_acceleration_at_rest(system.model(), 0.2, c), 1e-6 * (1 + std::fabs(slope)));
     }
 }
 
@@ -163,6 +204,7 @@ TEST_P(Contact_, LedgerIsConstantAlongTheFlow) {
             const ContactState c = system.contact(0.1 + e, z.data());
             System::EnergyBalance balance = system.balance_without_beam(z.data(), c);
             balance.energies = system.model().energies();
+            if (system.spring()) balance.spring = system.spring()->energy(system.model().hub_angle());
             return balance.total();
         };
         const double h = 1e-7, drift = scalar_slope_at_zero(total, h);
@@ -184,7 +226,11 @@ INSTANTIATE_TEST_SUITE_P(Every, Contact_,
                                            ContactCase{ModelKind::second_order, Basis::cantilever, -0.1, 0.01, 2},
                                            ContactCase{ModelKind::exact, Basis::automatic, 0, 0, 0},
                                            ContactCase{ModelKind::exact, Basis::automatic, 0.05, 0.0184, 1},
-                                           ContactCase{ModelKind::exact, Basis::automatic, -0.05, 0.0184, 2}),
+                                           ContactCase{ModelKind::exact, Basis::automatic, -0.05, 0.0184, 2},
+                                           ContactCase{ModelKind::rigid, Basis::automatic, 0, 0, 0, true},
+                                           ContactCase{ModelKind::first_order, Basis::hub_beam, 0.02, 0.0184, 1, true},
+                                           ContactCase{ModelKind::second_order, Basis::cantilever, 0, 0.01, 0, true},
+                                           ContactCase{ModelKind::exact, Basis::automatic, 0.02, 0.0184, 2, true}),
                          contact_case_name);
 
 TEST(ContactGeometry, TouchesTheTipWhenTheDiscLiesBeyond) {
@@ -232,9 +278,9 @@ TEST(ContactGeometry, CamTurnsClockwiseForPositiveSpeed) {
     p.cam->speed = 2;
     p.cam->phase = 0.3;
     const System system(p);
-    const CamPose pose = system.cam(0.25);
-    EXPECT_NEAR(pose.angle, 0.3 - 0.5, 1e-16);
-    EXPECT_NEAR(pose.disc.x, 0.25 + 0.02 * std::cos(-0.2), 1e-16);
+    const OsculatingDisc pose = system.cam().disc(0.25, {0, 1});
+    EXPECT_NEAR(system.cam().angle(0.25), 0.3 - 0.5, 1e-16);
+    EXPECT_NEAR(pose.centre.x, 0.25 + 0.02 * std::cos(-0.2), 1e-16);
     EXPECT_NEAR(pose.velocity.x, 0.02 * -2 * -std::sin(-0.2), 1e-16);
     EXPECT_NEAR(pose.velocity.y, 0.02 * -2 * std::cos(-0.2), 1e-16);
 }
@@ -257,8 +303,9 @@ TEST(ContactGeometry, RimOfAClockwiseCamRunsTowardsTheTipAboveIt) {
 
 TEST(ContactGeometry, BoundOfTheGapIsABound) {
     for (const ModelKind kind : {ModelKind::rigid, ModelKind::first_order, ModelKind::second_order, ModelKind::exact})
-        for (const double radius : {-0.1, 0.0, 0.2}) {
+        for (const double radius : {-0.1, 0.0, 0.2, 0.02}) {
             Problem p;
+            if (radius == 0.02) p.cam->profile = lift_and_return();
             p.beam.model = kind;
             p.beam.modes = 6;
             p.hub.radius = radius;

@@ -2,6 +2,7 @@
 #include "sim/orbit/modal_jets.hpp"
 
 #include "sim/base/numerics.hpp"
+#include "tests/sim/cam/profiles.hpp"
 #include "tests/sim/support.hpp"
 
 namespace beamcam::sim::testing {
@@ -16,6 +17,7 @@ struct JetCase {
     Friction friction = NoFriction{};
     Phase phase = {};
     Drive drive = FreeDrive{};
+    std::optional<Profile> profile = {};
 };
 
 Problem problem_of(const JetCase& c) {
@@ -29,6 +31,10 @@ Problem problem_of(const JetCase& c) {
     p.contact.model = c.phase.held ? ContactModel::restitution : ContactModel::compliant;
     p.contact.friction = c.friction;
     p.contact.offset = 0.02;
+    if (!c.profile) return p;
+    p.cam->profile = c.profile;
+    p.hub.spring = {3, -0.2, 0.1};
+    if (!c.phase.held) p.contact.stiffness.reset();  // Hertz's, which changes along the outline
     return p;
 }
 
@@ -101,18 +107,22 @@ TEST(ModalJets, GiveTheVectorFieldAndItsDerivatives) {
         slides{.touching = true, .approach = 5, .friction = FrictionState::slide_plus};
     const CoulombFriction rough{0.3, 0.05};
     const StickSlipFriction sticky{0.3, {}, 2e4};
-    for (const JetCase& c : {JetCase{"flight"}, JetCase{"flight of a clamped shape", first_order, Basis::cantilever},
-                             JetCase{"touch", first_order, Basis::automatic, NoFriction{}, touch},
-                             JetCase{"rigid", rigid, Basis::automatic, rough, touch},
-                             JetCase{"zeroth-order", zeroth_order, Basis::automatic, rough, touch},
-                             JetCase{"clamped shapes", first_order, Basis::cantilever, rough, touch},
-                             JetCase{"stick", first_order, Basis::automatic, sticky, touch},
-                             JetCase{"slide", first_order, Basis::automatic, sticky, slides},
-                             JetCase{"held", first_order, Basis::automatic, NoFriction{}, held},
-                             JetCase{"held with friction", first_order, Basis::automatic, rough, held},
-                             JetCase{"held and rigid", rigid, Basis::automatic, rough, held},
-                             JetCase{"held, clamped shapes", first_order, Basis::cantilever, rough, held},
-                             JetCase{"driven", first_order, Basis::automatic, NoFriction{}, flight, ConstantSpeed{2}}})
+    for (const JetCase& c :
+         {JetCase{"flight"}, JetCase{"flight of a clamped shape", first_order, Basis::cantilever},
+          JetCase{"touch", first_order, Basis::automatic, NoFriction{}, touch},
+          JetCase{"rigid", rigid, Basis::automatic, rough, touch},
+          JetCase{"zeroth-order", zeroth_order, Basis::automatic, rough, touch},
+          JetCase{"clamped shapes", first_order, Basis::cantilever, rough, touch},
+          JetCase{"stick", first_order, Basis::automatic, sticky, touch},
+          JetCase{"slide", first_order, Basis::automatic, sticky, slides},
+          JetCase{"held", first_order, Basis::automatic, NoFriction{}, held},
+          JetCase{"held with friction", first_order, Basis::automatic, rough, held},
+          JetCase{"held and rigid", rigid, Basis::automatic, rough, held},
+          JetCase{"held, clamped shapes", first_order, Basis::cantilever, rough, held},
+          JetCase{"profile", first_order, Basis::automatic, rough, touch, {}, lift_and_return()},
+          JetCase{"profile, slide", first_order, Basis::automatic, sticky, slides, {}, tangent_arcs()},
+          JetCase{"profile, held", first_order, Basis::automatic, rough, held, {}, lift_and_return()},
+          JetCase{"driven", first_order, Basis::automatic, NoFriction{}, flight, ConstantSpeed{2}}})
         expect_the_same_field(c);
 }
 

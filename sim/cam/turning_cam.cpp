@@ -1,0 +1,76 @@
+#include "sim/cam/turning_cam.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace beamcam::sim {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+constexpr int kMostClimbs = 30;        // Newton's method needs three to six
+constexpr double kLastClimb = 1e-8;    // [rad]: the next step of Newton's method, which squares it, is rounding
+constexpr double kLongestClimb = 0.3;  // [rad]
+constexpr int kNormalsOfSearch = 128;
+
+}  // namespace
+
+TurningCam::TurningCam(const Problem& problem)
+    : shape_(std::make_shared<const CamShape>(problem.cam ? problem : Problem{})),
+      axis_(problem.cam.value_or(Cam{}).centre),
+      phase_(problem.cam.value_or(Cam{}).phase),
+      speed_(problem.cam.value_or(Cam{}).speed),
+      radius_(problem.cam.value_or(Cam{}).radius),
+      eccentricity_(problem.cam.value_or(Cam{}).eccentricity),
+      is_disc_(shape_->is_disc()) {}
+
+OsculatingDisc TurningCam::disc(double t, Vec2 normal) const {
+    if (is_disc_) {
+        const Vec2 arm = eccentricity_ * unit(angle(t));
+        return {axis_ + arm, -speed_ * perp(arm), radius_};
+    }
+    const CamPoint at = shape_->at(std::atan2(normal.y, normal.x) - angle(t));
+    const Vec2 arm = (at.h - at.radius) * normal + at.slope * perp(normal);
+    return {axis_ + arm, -speed_ * perp(arm), at.radius};
+}
+
+OsculatingDisc TurningCam::nearest(double t, Vec2 point, Vec2 normal) const {
+    if (is_disc_) return disc(t, normal);
+    const double psi = angle(t), c = std::cos(psi), s = std::sin(psi);
+    const Vec2 d = point - axis_, in_cam{c * d.x + s * d.y, c * d.y - s * d.x};
+    return disc(t, unit(psi + nearest_normal(in_cam, std::atan2(normal.y, normal.x) - psi)));
+}
+
+// A point P in the cam's frame lies P·n(α) − h(α) beyond the tangent at α, and the largest of these is its distance
+// from the outline. The normal there is α, from the guess or from the best of equally spaced normals.
+double TurningCam::nearest_normal(Vec2 point, double alpha) const {
+    const double guess = alpha;
+    if (climb(point, alpha)) return alpha;
+    double best = guess, farthest = dot(point, unit(guess)) - shape_->at(guess).h;
+    for (int i = 0; i < kNormalsOfSearch; ++i) {
+        const double a = kTurn * i / kNormalsOfSearch, beyond = dot(point, unit(a)) - shape_->at(a).h;
+        if (beyond > farthest) {
+            best = a;
+            farthest = beyond;
+        }
+    }
+    alpha = best;
+    return climb(point, alpha) ? alpha : best;
+}
+
+// Newton's method for the largest P·n − h, whose second derivative is −(P·n − h + ρ). False: it does not lead to a
+// tangent that separates the point from the cam.
+bool TurningCam::climb(Vec2 point, double& alpha) const {
+    for (int i = 0; i < kMostClimbs; ++i) {
+        const CamPoint at = shape_->at(alpha);
+        const Vec2 n = unit(alpha);
+        const double curvature = dot(point, n) - at.h + at.radius;
+        if (!(curvature > 0)) return false;
+        const double step = (dot(point, perp(n)) - at.slope) / curvature;
+        alpha += std::clamp(step, -kLongestClimb, kLongestClimb);
+        if (std::fabs(step) < kLastClimb) return true;
+    }
+    return false;
+}
+
+}  // namespace beamcam::sim
