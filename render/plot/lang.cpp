@@ -147,6 +147,8 @@ constexpr Phrase kPhrases[] = {
     {"Bending energy", "弯曲能"},
     {"Energy in the contact", "接触能"},
     {"Lost in the beam", "结构耗散"},
+    {"Lost in the hub", "轮毂耗散"},
+    {"Energy in the hub's spring", "轮毂弹簧能"},
     {"Lost in the contact", "接触耗散"},
     {"Lost to friction", "摩擦耗散"},
     {"Work of the cam", "凸轮做功"},

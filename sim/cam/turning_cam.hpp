@@ -8,7 +8,7 @@
 namespace beamcam::sim {
 
 // The disc about the outline's centre of curvature, which moves with the cam. Up to their second derivatives, distance
-// and normal of a point near the outline are those of this disc; a disc osculates itself everywhere.
+// and normal of a point near the outline are those of this disc; a disc osculates itself everywhere (S109).
 struct OsculatingDisc {
     Vec2 centre, velocity;  // B [m], Ḃ [m/s]
     double radius = 0;      // ρ [m]

@@ -150,7 +150,7 @@ Event ContactGuards::first_event(const Segment& segment) {
 }
 
 // The normal's angle α in the cam's frame moves by less than half a turn in a step of contact. A step that begins on a
-// kink has passed it.
+// kink has passed it.                                                                                     (S110)
 std::optional<double> ContactGuards::first_kink(const Segment& segment) {
     const TurningCam& cam = probe_.system.cam();
     if (cam.shape().kinks().empty()) return std::nullopt;
