@@ -186,9 +186,9 @@ void add_sweep(Grammar& grammar) {
         "sweep", "Simulate many motions over one or two keys: samples, classes, diagrams", act);
     app.examples = {
         "sweep pressed.json --over cam.speed=40:60:601 -o sweep.csv --diagram bifurcation.pdf",
-        "sweep ruler.json --over cam.speed=300rpm:900rpm:13 --sample peaks --transient 0 --keep 1s -o peaks.csv",
+        "sweep pressed.json --over cam.speed=40:60:21 --sample peaks --value rebound_peak --diagram peaks.pdf",
         "sweep pressed.json --over cam.speed=40:60:601 -o sweep.csv --shard 2/8"};
-    app.footer = "`beamcam init --from pressed` and `--from ruler` write the scenes of the examples.";
+    app.footer = "`beamcam init --from pressed` writes the scene of the examples.";
     add_scene(app, args.scene, args.common);
     app.option(
         "--over", &args.over, "KEY=VALUES",

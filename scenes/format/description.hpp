@@ -59,6 +59,9 @@ struct KeyRow {
     const DescribedKey* key;
 };
 std::vector<KeyRow> key_rows();
+// "; its place is "cam.speed"": where a key that an object does not have is a key, the three outermost places. `path`:
+// where it was found, "outputs.0.unit". `inside`: only within that object, which has this `type`, or none.
+std::string place_of_key(const std::string& path, const std::string& type, bool inside);
 std::string range_text(const DescribedKey& key);    // "> 0", "1 … 2"; empty: any
 std::string default_text(const DescribedKey& key);  // JSON; empty: none
 

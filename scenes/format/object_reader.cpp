@@ -10,6 +10,7 @@
 #include <regex>
 
 #include "scenes/format/absent.hpp"
+#include "scenes/format/description.hpp"
 #include "scenes/format/file_column.hpp"
 #include "scenes/format/suggest.hpp"
 
@@ -290,29 +291,33 @@ void ObjectReader::check(const std::function<void(ObjectReader&)>& rule) {
     if (object_) rule(*this);
 }
 
-void ObjectReader::finish(const SuggestPlace& suggest) {
+void ObjectReader::finish() {
     for (const auto& read_deferred : deferred_) read_deferred();
     if (!object_ || unknown_shape_) return;
+    const Member* type = object_->find("type");
     for (const Member& member : object_->members) {
         if (member.key.starts_with("x-") || std::ranges::find(visited_, member.key) != visited_.end()) continue;
+        const std::string place = path(member.key);
         std::string remedy;
-        if (const std::string where = suggest ? suggest(member.key) : ""; !where.empty())
-            remedy = fmt::format("; it belongs {}", where);
-        else if (!diagnostics_.exceed_report())
-            remedy = absent_key(path(member.key));
-        if (remedy.empty() && !diagnostics_.exceed_report()) remedy = suggestion_or_list(member.key, visited_);
-        diagnostics_.error(member.key_place, path(member.key),
+        const auto try_remedy = [&](const auto& find) {
+            if (remedy.empty() && !diagnostics_.exceed_report()) remedy = find();
+        };
+        try_remedy([&] { return absent_key(place); });
+        if (context_) try_remedy([&] { return place_of_key(place, type ? type->value.text : "", true); });
+        try_remedy([&] { return suggestion(member.key, visited_); });
+        if (context_) try_remedy([&] { return place_of_key(place, "", false); });
+        try_remedy([&] { return suggestion_or_list(member.key, visited_); });
+        diagnostics_.error(member.key_place, place,
                            fmt::format("unknown key {} in {}{}", in_quotes(member.key), object_name(), remedy));
     }
 }
 
 bool read_object(const Node& root, const std::string& name, const std::function<void(ObjectReader& r)>& visit,
-                 std::vector<Message>& messages, const SceneContext* context,
-                 const ObjectReader::SuggestPlace& suggest) {
+                 std::vector<Message>& messages, const SceneContext* context) {
     Diagnostics diagnostics;
     ObjectReader reader(diagnostics, &root, "", name, context);
     visit(reader);
-    reader.finish(suggest);
+    reader.finish();
     std::ranges::move(diagnostics.take(), std::back_inserter(messages));
     return !diagnostics.any();
 }

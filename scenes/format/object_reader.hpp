@@ -63,8 +63,6 @@ struct SceneContext {
 
 class ObjectReader final : public SceneVisitor {
   public:
-    using SuggestPlace = std::function<std::string(const std::string& key)>;
-
     ObjectReader(Diagnostics& diagnostics, const Node* object, std::string path, std::string root = "the scene",
                  const SceneContext* context = nullptr);
 
@@ -146,7 +144,7 @@ class ObjectReader final : public SceneVisitor {
     void check(const std::function<void(ObjectReader&)>& rule) override;
 
     // Reports every key that was not visited. `suggest` may return where such a key belongs.
-    void finish(const SuggestPlace& suggest = {});
+    void finish();
 
   private:
     void read_number(const Key& key, std::optional<double>& value, const sim::Unit& unit, const sim::Range& range,
@@ -169,7 +167,6 @@ class ObjectReader final : public SceneVisitor {
 // Reads the keys that `visit` visits in `root`, the object of this name, and appends the messages. False: there are
 // errors.
 bool read_object(const Node& root, const std::string& name, const std::function<void(ObjectReader& r)>& visit,
-                 std::vector<Message>& messages, const SceneContext* context = nullptr,
-                 const ObjectReader::SuggestPlace& suggest = {});
+                 std::vector<Message>& messages, const SceneContext* context = nullptr);
 
 }  // namespace beamcam::scenes

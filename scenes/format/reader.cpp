@@ -10,7 +10,6 @@
 #include <filesystem>
 #include <memory>
 
-#include "scenes/format/description.hpp"
 #include "scenes/format/object_reader.hpp"
 #include "scenes/format/overrides.hpp"
 #include "scenes/format/presets.hpp"
@@ -18,23 +17,13 @@
 namespace beamcam::scenes {
 namespace {
 
-// The place in an output for a key that was found beside the outputs; empty: no output has it.
-std::string place_in_outputs(const std::string& key) {
-    const auto outputs = std::ranges::find(scene_format().keys, "outputs", &DescribedKey::name);
-    for (const DescribedObject& type : outputs->shapes)
-        if (std::ranges::find(type.keys, key, &DescribedKey::name) != type.keys.end())
-            return fmt::format("to an output: \"outputs\": [{{\"type\": \"{}\", \"{}\": …}}]", type.tags.front().second,
-                               key);
-    return {};
-}
-
 Scene read_tree(const Node& root, const Source& source, const std::string& scene_name, std::vector<Message>& messages) {
     Scene scene;
     scene.name = scene_name;
     std::map<std::string, OtherScene> others;
     const SceneContext context{scene, root, source, others};
     read_object(
-        root, "the scene", [&scene](ObjectReader& r) { visit(r, scene); }, messages, &context, place_in_outputs);
+        root, "the scene", [&scene](ObjectReader& r) { visit(r, scene); }, messages, &context);
     return scene;
 }
 

@@ -72,6 +72,26 @@ std::vector<KeyRow> key_rows() {
     return merged;
 }
 
+std::string place_of_key(const std::string& path, const std::string& type, bool inside) {
+    constexpr std::size_t kMostPlaces = 3;
+    const std::string key = path.substr(path.rfind('.') + 1);  // npos + 1 is 0
+    std::string object;                                        // "outputs[]."
+    for (const std::string& part : split(path.substr(0, path.size() - key.size()), '.'))
+        if (!part.empty()) object += part.find_first_not_of("0123456789") == std::string::npos ? "[]." : part + ".";
+    replace_all(object, ".[]", "[]");
+    std::vector<std::string> places;
+    for (const KeyRow& row : key_rows()) {
+        const bool within = row.path.starts_with(object) && row.path.size() > object.size() + key.size();
+        const bool other_type = !type.empty() && row.when.find("type=" + type) == std::string::npos;
+        if (!("." + row.path).ends_with("." + key) || (inside && (!within || other_type))) continue;
+        if (std::ranges::find(places, row.path) == places.end()) places.push_back(row.path);
+    }
+    if (places.empty()) return {};
+    std::ranges::stable_sort(places, {}, [](const std::string& place) { return std::ranges::count(place, '.'); });
+    places.resize(std::min(places.size(), kMostPlaces));
+    return fmt::format("; its place is \"{}\"", fmt::join(places, "\" or \""));
+}
+
 std::string range_text(const DescribedKey& key) {
     const sim::Range& r = key.range;
     const bool below = std::isfinite(r.min), above = std::isfinite(r.max);
