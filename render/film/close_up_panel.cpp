@@ -10,6 +10,7 @@
 #include "render/film/close_up_readings.hpp"
 #include "render/film/panel.hpp"
 #include "render/plot/ticks.hpp"
+#include "sim/cam/cam_shape.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -28,7 +29,7 @@ class CloseUpPanel final : public FilmPanel {
         for (int k = 0; k < context.frames(); ++k)
             if (const auto near = context.pose(member_, k).nearest) depth_ = std::max(depth_, -near->gap);
         if (!motion().problem.cam) return;
-        const double radius = motion().problem.cam->radius;
+        const double radius = sim::cam_shape(motion().problem)->largest_radius();
         // An impulsive contact does not penetrate: its scale is a ten-thousandth of the radius.
         if (!(depth_ > 1e-9 * radius)) depth_ = 1e-4 * radius;
         // The rim of the cam reaches the lower edge at the sides.
@@ -61,7 +62,7 @@ class CloseUpPanel final : public FilmPanel {
         if (!motion().problem.cam || !pose.nearest) return;
         const sim::Nearest& near = *pose.nearest;
         canvas.clip(plot_, [&] {
-            draw_cam(canvas);
+            draw_cam(canvas, pose);
             draw_beam(canvas, pose);
         });
         CloseUpReadings{context_, motion(), box_, plot_, unit_}.draw(canvas, pose, at(0, near.gap).y);
@@ -73,9 +74,10 @@ class CloseUpPanel final : public FilmPanel {
         return {plot_.x + plot_.w * (x + half_width_) / (2 * half_width_),
                 plot_.bottom() - plot_.h * (y - shown_.low) / (shown_.high - shown_.low)};
     }
-    double cam_height(double x) const {
-        const double r = motion().problem.cam->radius;
-        return std::sqrt(r * r - x * x) - r;
+    // Of the disc that osculates the cam at the contact.
+    static double cam_height(const sim::Pose& pose, double x) {
+        const double r = pose.disc_radius;
+        return std::sqrt(std::max(0.0, r * r - x * x)) - r;
     }
 
     void draw_heights(Canvas& canvas) const {
@@ -123,18 +125,18 @@ class CloseUpPanel final : public FilmPanel {
         canvas.fill(color);
     }
 
-    std::vector<Vec2> rim() const {
+    std::vector<Vec2> rim(const sim::Pose& pose) const {
         std::vector<Vec2> out;
         for (int i = 0; i <= 80; ++i) {
             const double x = half_width_ * (i / 40.0 - 1) * 1.02;
-            out.push_back(at(x, cam_height(x)));
+            out.push_back(at(x, cam_height(pose, x)));
         }
         return out;
     }
 
-    void draw_cam(Canvas& canvas) const {
+    void draw_cam(Canvas& canvas, const sim::Pose& pose) const {
         const Palette& p = *context_.palette;
-        const std::vector<Vec2> edge = rim();
+        const std::vector<Vec2> edge = rim(pose);
         fill_to(canvas, edge, plot_.bottom() + 4, p.steel);
         canvas.polyline(edge);
         canvas.stroke({p.steel_edge, 2 * context_.unit});
@@ -183,13 +185,14 @@ class CloseUpPanel final : public FilmPanel {
         // The overlap.
         std::vector<Vec2> over, under;
         for (Vec2 h : heights)
-            if (h.y < cam_height(h.x)) over.push_back(at(h.x, cam_height(h.x))), under.push_back(at(h.x, h.y));
+            if (h.y < cam_height(pose, h.x))
+                over.push_back(at(h.x, cam_height(pose, h.x))), under.push_back(at(h.x, h.y));
         if (over.size() > 1) {
             over.insert(over.end(), under.rbegin(), under.rend());
             canvas.polyline(over);
             canvas.close();
             canvas.fill(p.tint(p.contact, 0.55));
-            canvas.polyline(rim());  // visible through the beam
+            canvas.polyline(rim(pose));  // visible through the beam
             canvas.stroke({p.steel_edge, 2 * u});
         }
         canvas.polyline(edge);

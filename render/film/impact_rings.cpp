@@ -4,6 +4,9 @@
 #include <cmath>
 #include <span>
 
+#include "render/mechanism/cam_outline.hpp"
+#include "sim/cam/cam_shape.hpp"
+
 namespace beamcam::render {
 namespace {
 
@@ -40,7 +43,7 @@ void ImpactRings::draw(const MechanismScene& s) const {
         const double share = age(r);
         if (share >= 1) continue;
         const Vec2 at =
-            s.px(s.pose.disc_centre + sim::unit(s.pose.cam_angle + r.material_angle) * s.at.problem().cam->radius);
+            s.px(on_cam(s.pose, sim::cam_shape(s.at.problem())->at(r.material_angle).position(r.material_angle)));
         s.canvas.circle(at, (7 + 20 * std::sqrt(share)) * s.at.marks);
         s.canvas.stroke(
             {s.at.palette.contact.faded((1 - share) * (1 - share)), (3.2 - 2 * share) * std::max(s.at.marks, 0.45)});

@@ -27,8 +27,22 @@ LitScene lit_scene(const MechanismShape& shape, const MechanismLook& look, const
         // A small disc has no visible chamfer, so it is darker.
         const double small = std::clamp(1 - d.radius / (24 * u), 0.0, 1.0);
         const Color steel = mix(palette.steel, palette.pin, 0.7 * small);
-        scene.behind.push_back({d.centre - origin, d.radius, d.axis - origin, d.bore,
-                                std::min(4.5 * u, 0.06 * d.radius), steel, Finish::turned, true});
+        const double chamfer = std::min(4.5 * u, 0.06 * d.radius);
+        if (d.outline.empty()) {
+            scene.behind.push_back(
+                {d.centre - origin, d.radius, d.axis - origin, d.bore, chamfer, steel, Finish::turned, true});
+        } else {  // a boss covers the middle of the cam
+            scene.cam.emplace();
+            scene.cam->closed = true;
+            scene.cam->chamfer = chamfer;
+            for (const Vec2 p : d.outline) {
+                scene.cam->face.push_back(p - origin);
+                scene.cam->back.push_back(d.axis - origin);
+                scene.cam->colors.push_back(steel);
+            }
+            scene.behind.push_back(
+                {d.axis - origin, 1.9 * d.bore, d.axis - origin, d.bore, 0.4 * d.bore, steel, Finish::turned, false});
+        }
         scene.behind.push_back(
             {d.mark - origin, d.mark_radius, {}, 0, 0, mix(palette.steel, rgb(0), 0.25), Finish::dimple, false});
     }
@@ -63,6 +77,11 @@ DirtyTiles lit_tiles(const LitScene& scene, Vec2 origin, int width, int height) 
     const double around = 26 * scene.unit + 4;
     for (const auto* rounds : {&scene.behind, &scene.front})
         for (const LitRound& r : *rounds) add_round(tiles, height, origin + r.centre, r.radius + around);
+    if (scene.cam) {
+        double reach = 0;
+        for (const Vec2 p : scene.cam->face) reach = std::max(reach, norm(p - scene.cam->back.front()));
+        add_round(tiles, height, origin + scene.cam->back.front(), reach + around);
+    }
     const LitStrip& strip = scene.strip;
     for (std::size_t i = 0; i + 1 < strip.face.size(); ++i) {
         Bounds piece;

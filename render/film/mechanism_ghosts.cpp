@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "render/film/mechanism_marks.hpp"
+#include "render/mechanism/cam_outline.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -61,7 +62,14 @@ void draw_ghost_outlines(const MechanismScene& s) {
         const Color color = s.at.context.member_color(m);
         const sim::Pose& pose = s.at.context.pose(m, s.frame);
         const std::optional<sim::Cam>& cam = s.at.context.motion(m).problem.cam;
-        if (cam && (!s.shape.disc || norm(s.at.px(pose.disc_centre) - s.shape.disc->centre) > 0.5)) {
+        if (cam && cam->profile && !(s.at.problem().cam && cam->profile == s.at.problem().cam->profile)) {
+            std::vector<Vec2> edge;
+            for (const Vec2 p : placed_outline(s.at.context.motion(m).problem, pose, outline_points(200)))
+                edge.push_back(s.on(s.at.px(p)));
+            s.canvas.polyline(edge);
+            s.canvas.stroke({color.faded(0.8), 2 * s.at.unit, {8 * s.at.unit, 6 * s.at.unit}, Cap::butt});
+        }
+        if (cam && !cam->profile && (!s.shape.disc || norm(s.at.px(pose.disc_centre) - s.shape.disc->centre) > 0.5)) {
             s.arc(s.at.px(pose.disc_centre), cam->radius * s.at.look.camera.scale, 0, 2 * pi);
             s.canvas.stroke({color.faded(0.8), 2 * s.at.unit, {8 * s.at.unit, 6 * s.at.unit}, Cap::butt});
         }

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "render/gl/solid.hpp"
+#include "render/mechanism/cam_outline.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -32,7 +33,7 @@ void draw_letter(const MechanismScene& s, Vec2 owner, Vec2 middle, const char* m
 
 double drawn_angle(const sim::Pose& pose) { return std::fmod(pose.theta, 2 * pi); }
 
-double arc_before_cam(const sim::Cam& cam) { return 0.86 * (norm(cam.centre) - (cam.radius + cam.eccentricity)); }
+double arc_before_cam(const sim::Problem& problem) { return 0.86 * (norm(problem.cam->centre) - cam_reach(problem)); }
 
 // The arc and its letter lie between hub and cam or, where they have no room there, beyond the cam; so do those of the
 // solid view, whose bearing takes that room.
@@ -46,9 +47,9 @@ std::optional<double> arc_radius(const MechanismView& home) {
     const double reach = kOfReach * (home.problem().hub.radius + home.problem().beam.length) * scale;
     double radius = std::min(usual, reach);
     if (const std::optional<sim::Cam>& cam = home.problem().cam) {
-        const double before = arc_before_cam(*cam) * scale - 30 * letter;
+        const double before = arc_before_cam(home.problem()) * scale - 30 * letter;
         const double aside = solid ? 2 * kDiscDepth * home.wide + 40 * letter : 12 * home.unit;
-        const double beyond = (norm(cam->centre) + cam->radius + cam->eccentricity) * scale + aside;
+        const double beyond = (norm(cam->centre) + cam_reach(home.problem())) * scale + aside;
         if (before >= least && !solid)
             radius = std::min(radius, before);
         else if (beyond <= reach)
@@ -91,7 +92,7 @@ void draw_cam_speed(const MechanismScene& s) {
     const double to_cam = std::atan2(cam->centre.y, cam->centre.x), u = s.at.unit;
     const double beam_side = std::remainder(s.at.problem().initial.angle - to_cam, 2 * pi) >= 0 ? 1 : -1;
     const double middle = to_cam - beam_side * 0.4 * pi;
-    const double radius = (cam->radius + cam->eccentricity) * s.at.look.camera.scale + 20 * u;
+    const double radius = cam_reach(s.at.problem()) * s.at.look.camera.scale + 20 * u;
     const double half = std::min(0.8, 150 * u / radius) / 2, head = 17 * u;
     const double from = middle + (cam->speed > 0 ? half : -half), to = 2 * middle - from;
     const double back = (to < from ? 1 : -1) * 0.9 * head / radius;

@@ -20,7 +20,7 @@ std::optional<ForceArrow> force_arrow_of(const sim::Pose& pose, const DrawnBeam&
 // Hub angle as its arc shows it, without whole turns [rad].
 double drawn_angle(const sim::Pose& pose);
 // Largest radius of an arc about the hub's axis that stays before the disc at every angle of the cam [m].
-double arc_before_cam(const sim::Cam& cam);
+double arc_before_cam(const sim::Problem& problem);
 // Radius of the arc of θ before the camera that shows everything; none if only a hidden arc would fit [px].
 std::optional<double> arc_radius(const MechanismView& home);
 

@@ -58,7 +58,7 @@ static double least_letter(const MechanismView& at) {
 
 // B and C are beyond the ends of the line between them or, on a small disc, on its two sides, and inside the disc.
 void draw_disc_letters(const MechanismScene& s) {
-    if (!s.shape.disc) return;
+    if (!s.shape.disc || !s.shape.disc->outline.empty()) return;
     const Color ink = ink_on_disc(s);
     const DiscShape& d = *s.shape.disc;
     // On a small disc they keep a readable size; before a near camera they grow with it to their usual size.
@@ -95,7 +95,14 @@ void draw_disc_marks(const MechanismScene& s, const Trace& trace) {
     const DiscShape& d = *s.shape.disc;
     const double inset = std::min(7 * s.at.unit, 0.1 * d.radius), n = static_cast<double>(trace.rim().size());
     const auto place = [&](std::size_t i) {
-        const double at = d.angle + 2 * pi * (static_cast<double>(i) + 0.5) / n, half = 2 * pi * 1.7 / n;
+        const double share = (static_cast<double>(i) + 0.5) / n, wide = 1.7 / n;
+        if (!d.outline.empty()) {
+            s.canvas.move_to(d.rim(share - wide, inset));
+            s.canvas.line_to(d.rim(share, inset));
+            s.canvas.line_to(d.rim(share + wide, inset));
+            return;
+        }
+        const double at = d.angle + 2 * pi * share, half = 2 * pi * wide;
         s.canvas.move_to(d.centre + down(at - half) * (d.radius - inset));
         s.canvas.arc(d.centre, d.radius - inset, at - half, at + half);
     };
@@ -109,8 +116,10 @@ void draw_disc_marks(const MechanismScene& s, const Trace& trace) {
         s.canvas.line_to(d.centre);
         s.canvas.stroke({ink, 1.8 * pen});
     }
-    s.canvas.circle(d.centre, 4 * s.at.marks);
-    s.canvas.fill(ink);
+    if (d.outline.empty()) {
+        s.canvas.circle(d.centre, 4 * s.at.marks);
+        s.canvas.fill(ink);
+    }
     if (s.at.context.setup->view.transparent) {  // the bore shows the background, on which the cross may be invisible
         s.canvas.circle(d.axis, d.bore);
         s.canvas.fill(s.at.palette.paper);

@@ -7,6 +7,7 @@
 #include "render/film/mechanism_labels.hpp"
 #include "render/film/mechanism_marks.hpp"
 #include "render/film/offscreen.hpp"
+#include "render/mechanism/cam_outline.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -21,7 +22,7 @@ struct MechanismPanel::ThreadState final : FilmPanel::State {
     ThreadState(const FilmContext& context, int member, double scale) : trace(trace_of(context, member, scale)) {}
     static Trace trace_of(const FilmContext& context, int member, double scale) {
         const sim::Problem& problem = context.motion(member).problem;
-        const double rim = 2 * pi * (problem.cam ? problem.cam->radius : 1), length = problem.beam.length;
+        const double rim = problem.cam ? cam_circumference(problem) : 1, length = problem.beam.length;
         const auto places = [&](double metres) {
             return static_cast<std::size_t>(std::clamp(metres * scale, 1.0, 65536.0));
         };
@@ -86,7 +87,7 @@ int MechanismPanel::empty_frames() const {
         }
         Bounds hub, disc;
         hub.add({0, 0}, hub_radius(at_.problem(), at_.look.camera, at_.unit) / at_.look.camera.scale);
-        if (at_.problem().cam) disc.add(at_.context.pose(at_.member, k).disc_centre, at_.problem().cam->radius);
+        if (at_.problem().cam) disc.add(at_.problem().cam->centre, cam_reach(at_.problem()));
         if (!seen && !sees(hub) && !(at_.problem().cam && sees(disc))) ++count;
     }
     return count;

@@ -15,6 +15,7 @@
 
 #include "render/film/mechanism_labels.hpp"
 #include "render/film/panel.hpp"
+#include "render/mechanism/cam_outline.hpp"
 #include "render/mechanism/exaggeration.hpp"
 #include "render/plot/labels.hpp"
 #include "render/plot/user_text.hpp"
@@ -105,24 +106,27 @@ std::string base64(const std::vector<Number>& numbers) {
 
 std::string css(const Color& c) { return '"' + hex(c) + '"'; }
 
-// For each degree of the disc: time of the first touch, and colour of the largest force.
-std::string trace_json(const FilmContext& context, double radius) {
+constexpr int kOutline = 360;
+
+// For each place of the outline: time of the first touch, and colour of the largest force.
+std::string trace_json(const FilmContext& context) {
+    const double length = cam_circumference(context.motion(0).problem);
     struct Place {
-        double t = 0, angle = 0, force = 0;
+        double t = 0, at = 0, force = 0;
     };
     std::vector<Place> places;
     for (const TraceSample& s : context.samples.front()) {
-        const double angle = std::floor(s.s / radius / kFullTurn * 360) * kFullTurn / 360;
-        const auto same = std::ranges::find(places, angle, &Place::angle);
+        const double at = std::min<double>(kOutline - 1, std::floor(s.s / length * kOutline));
+        const auto same = std::ranges::find(places, at, &Place::at);
         if (same == places.end())
-            places.push_back({s.t, angle, s.force});
+            places.push_back({s.t, at, s.force});
         else
             same->force = std::max(same->force, s.force);
     }
     std::vector<std::string> out;
     for (const Place& p : places)
         out.push_back(
-            fmt::format("[{:.6g},{:.4g},{}]", p.t, p.angle,
+            fmt::format("[{:.6g},{},{}]", p.t, p.at,
                         css(force_color(*context.palette, std::sqrt(std::min(1.0, p.force / context.force_scale))))));
     return fmt::format("[{}]", fmt::join(out, ","));
 }
@@ -138,10 +142,14 @@ std::string impacts_json(const FilmContext& context) {
 std::string cam_json(const FilmContext& context) {
     const auto& cam = context.motion(0).problem.cam;
     if (!cam) return "null";
+    const sim::Problem& problem = context.motion(0).problem;
+    std::vector<std::string> outline;  // in the cam's frame, counter-clockwise
+    for (const Vec2 p : cam_outline(problem, kOutline).points)
+        outline.push_back(fmt::format("[{:.6g},{:.6g}]", p.x, p.y));
     return fmt::format(
-        R"({{"centre":[{:.9g},{:.9g}],"radius":{:.9g},"eccentricity":{:.9g},"speed":{:.9g},"turning":{},"trace":{}}})",
-        cam->centre.x, cam->centre.y, cam->radius, cam->eccentricity, cam->speed,
-        json_text(" = " + turning_speed(cam->speed, context.setup->units.speed)), trace_json(context, cam->radius));
+        R"({{"centre":[{:.9g},{:.9g}],"reach":{:.9g},"eccentricity":{:.9g},"outline":[{}],"speed":{:.9g},"turning":{},"trace":{}}})",
+        cam->centre.x, cam->centre.y, cam_reach(problem), cam->profile ? 0 : cam->eccentricity, fmt::join(outline, ","),
+        cam->speed, json_text(" = " + turning_speed(cam->speed, context.setup->units.speed)), trace_json(context));
 }
 
 std::string numbers_json(const std::vector<Instant>& kept) {
@@ -187,7 +195,7 @@ double arc_radius(const sim::Problem& problem) {
     const double length = problem.beam.length, usual = std::max(0.14 * length, problem.hub.radius + 0.1 * length),
                  least = std::max(problem.hub.radius, 0.022 * length) * 2;
     if (!problem.cam) return usual;
-    const double before_cam = arc_before_cam(*problem.cam);
+    const double before_cam = arc_before_cam(problem);
     return before_cam >= least ? std::min(usual, before_cam) : usual;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "render/film/panel.hpp"
+#include "render/mechanism/cam_outline.hpp"
 #include "render/mechanism/mechanism.hpp"
 
 namespace beamcam::render {
@@ -31,7 +32,7 @@ Bounds ViewExtent::shown(double scale, double u, bool small) const {
     double marks = 0;
     for (const sim::Problem* p : problems) {
         if (p->cam) {
-            const double swept = p->cam->radius + p->cam->eccentricity;
+            const double swept = cam_reach(*p);
             all.add(p->cam->centre, swept + (p->cam->speed != 0 && !small ? 34 * u * pixel : 0));
         }
         const double hub = scale > 0 ? hub_radius(*p, {scale, {}}, u) : 0;  // [px]

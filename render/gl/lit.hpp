@@ -8,6 +8,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,10 +37,12 @@ struct LitStrip {
     std::vector<Vec2> face, back;  // both edges, of the same size >= 2
     std::vector<Color> colors;
     double chamfer = 5;
+    bool closed = false;  // the first station follows the last one; only the face has an edge, others are covered
 };
 
 struct LitScene {
-    std::vector<LitRound> behind;  // drawn first, then the strip, then `front`
+    std::optional<LitStrip> cam;   // from its outline to its axis, if it is no disc; drawn first
+    std::vector<LitRound> behind;  // then the strip, then `front`
     LitStrip strip;
     std::vector<LitRound> front;
     double unit = 1;

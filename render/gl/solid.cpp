@@ -136,11 +136,19 @@ SolidScene solid_scene(const MechanismShape& shape, const Palette& palette, cons
         const DiscShape& d = *shape.disc;
         const double thick = kDiscDepth * wide, chamfer = std::min(3 * unit, 0.05 * d.radius);
         cylinder(up(d.axis), 0.8 * d.bore, -kMountDepth * wide, thick + 6 * unit, 1.5 * unit, palette.pin);
-        cylinder(up(d.centre), d.dot, thick, thick + 0.6, 0, mix(metal, rgb(0), 0.6));
+        if (d.outline.empty()) cylinder(up(d.centre), d.dot, thick, thick + 0.6, 0, mix(metal, rgb(0), 0.6));
         cylinder(up(d.mark), d.mark_radius, thick, thick + 0.6, 0, mix(metal, rgb(0), 0.45));
-        bodies.cylinder({up(d.centre), d.radius, -thick, thick, rim.empty() ? sides(d.radius) : kMostSides, chamfer,
-                         up(d.axis), d.bore},
-                        metal, rim, d.angle);
+        if (!d.outline.empty()) {
+            Prism cam{{}, {}, -thick, thick, chamfer, up(d.axis), d.bore};
+            for (std::size_t i = 0; i < d.outline.size(); ++i) {
+                cam.outline.push_back(up(d.outline[i]));
+                cam.outward.push_back({d.outward[i].x, -d.outward[i].y});
+            }
+            bodies.prism(cam, metal, rim);
+        } else
+            bodies.cylinder({up(d.centre), d.radius, -thick, thick, rim.empty() ? sides(d.radius) : kMostSides, chamfer,
+                             up(d.axis), d.bore},
+                            metal, rim, d.angle);
     }
     // The bearing block, behind the beam, and the shaft through it.
     const double foot = shape.hub + 30 * unit;

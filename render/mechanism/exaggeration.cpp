@@ -27,7 +27,7 @@ Vec2 turned(Vec2 v, double angle) {
 
 // Distance from O at which a straight beam touches the disc; 0: O is inside it.
 double straight_reach(const Problem& problem, const Pose& pose) {
-    const double d = norm(pose.disc_centre), r = problem.cam->radius + sim::contact_offset(problem);
+    const double d = norm(pose.disc_centre), r = pose.disc_radius + sim::contact_offset(problem);
     return d <= r ? 0 : std::sqrt(d * d - r * r);
 }
 
@@ -50,7 +50,7 @@ double cam_side(const Problem& problem, const Pose& pose) {
 double towards_cam(const Problem& problem, const Pose& pose) {
     if (!problem.cam || !pose.nearest) return 0;
     const double of_root =
-        norm(pose.centreline.front() - pose.disc_centre) - problem.cam->radius - sim::contact_offset(problem);
+        norm(pose.centreline.front() - pose.disc_centre) - pose.disc_radius - sim::contact_offset(problem);
     return of_root > 0 ? 1 - smoothstep(0.7, 1, pose.nearest->gap / of_root) : 1;
 }
 
@@ -78,7 +78,7 @@ double mean_angle(const Problem& problem, const Pose& pose) {
 
 // The point of the centre line nearest the cam.
 Vec2 nearest_on_line(const Problem& problem, const Pose& pose) {
-    const double reach = problem.cam->radius + sim::contact_offset(problem) + pose.nearest->gap;
+    const double reach = pose.disc_radius + sim::contact_offset(problem) + pose.nearest->gap;
     return pose.disc_centre + pose.nearest->normal * reach;
 }
 
@@ -161,7 +161,7 @@ DrawnBeam drawn_beam(const Problem& problem, const Pose& pose, double factor, do
             p = turned({local.x, factor * local.y}, base);
         }
         if (weight > 0) {
-            const double requested = problem.cam->radius + offset + std::max(pose.nearest->gap, 0.0);
+            const double requested = pose.disc_radius + offset + std::max(pose.nearest->gap, 0.0);
             const auto turn = turn_to(beam.line, pose.disc_centre, requested, problem.beam.length);
             beam.clear = turn.has_value();
             if (turn) {
@@ -180,10 +180,10 @@ DrawnBeam drawn_beam(const Problem& problem, const Pose& pose, double factor, do
         const Foot foot = foot_on(beam.line, pose.disc_centre);
         DrawnContact contact;
         contact.normal = foot.distance > 0 ? (foot.point - pose.disc_centre) * (1 / foot.distance) : Vec2{0, 1};
-        contact.on_disc = pose.disc_centre + contact.normal * problem.cam->radius;
+        contact.on_disc = pose.disc_centre + contact.normal * pose.disc_radius;
         contact.on_face = foot.point - contact.normal * offset;
         contact.x = foot.station / static_cast<double>(beam.line.size() - 1) * problem.beam.length;
-        contact.gap = foot.distance - problem.cam->radius - offset;
+        contact.gap = foot.distance - pose.disc_radius - offset;
         // 1e-5 of the length is a hundredth of a pixel in a full-size picture.
         if (factor != 1 && contact.gap < -1e-5 * problem.beam.length) beam.clear = false;
         // A contact drawn far from the true place on the beam would be wrong.

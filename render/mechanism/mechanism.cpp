@@ -5,36 +5,54 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/mechanism/cam_outline.hpp"
+#include "sim/cam/cam_shape.hpp"
+
 namespace beamcam::render {
 namespace {
 
 DiscShape disc_shape(const sim::Problem& problem, const sim::Pose& pose, const Camera& camera, double unit) {
-    const sim::Cam& cam = *problem.cam;
+    const auto outline = sim::cam_shape(problem);
     DiscShape disc;
-    disc.centre = camera.to_pixels(pose.disc_centre);
     disc.axis = camera.to_pixels(pose.cam_centre);
-    disc.radius = cam.radius * camera.scale;
+    disc.centre = outline->is_disc() ? camera.to_pixels(pose.disc_centre) : disc.axis;
+    disc.radius = (outline->is_disc() ? problem.cam->radius : outline->largest_reach()) * camera.scale;
     disc.angle = pose.cam_angle;
-    // The bore stays inside the disc, which has R − e of material around C.
+    // The bore stays inside the cam.
     const double marks = mark_unit(problem, camera, unit);
-    disc.bore = std::min({0.16 * disc.radius, 12 * marks, 0.6 * (cam.radius - cam.eccentricity) * camera.scale});
+    disc.bore = std::min({0.16 * disc.radius, 12 * marks, 0.6 * outline->least_height() * camera.scale});
     disc.mark_radius = std::min(5.5 * marks, 0.09 * disc.radius);
     disc.dot = std::min(4 * unit, 0.06 * disc.radius);
     const Vec2 ray = sim::unit(pose.cam_angle);
     const double out = disc.radius - std::min(24 * marks, 0.24 * disc.radius);
     disc.mark = disc.centre + Vec2{ray.x, -ray.y} * out;
+    if (outline->is_disc()) return disc;
+    const CamOutline points = cam_outline(problem, outline_points(disc.radius));
+    for (std::size_t i = 0; i < points.points.size(); ++i) {
+        disc.outline.push_back(camera.to_pixels(on_cam(pose, points.points[i])));
+        const Vec2 n = on_cam(pose, points.normals[i]) - pose.cam_centre;
+        disc.outward.push_back({n.x, -n.y});
+    }
+    disc.mark = disc.rim(0, disc.radius - out);
     return disc;
+}
+
+void outline_path(Canvas& canvas, const DiscShape& disc, double inset) {
+    if (disc.outline.empty()) return canvas.circle(disc.centre, disc.radius - inset);
+    canvas.move_to(disc.rim(0, inset));
+    for (std::size_t i = 1; i < disc.outline.size(); ++i) canvas.line_to(disc.outline[i] - disc.outward[i] * inset);
+    canvas.close();
 }
 
 // The fill ends under the middle of the outline, so that it is not visible at its edges.
 void draw_disc(Canvas& canvas, const DiscShape& disc, double unit, const Palette& p) {
     const double rim = 2 * unit, bore = 1.6 * unit;
-    canvas.circle(disc.centre, disc.radius - rim / 2);
+    outline_path(canvas, disc, rim / 2);
     canvas.move_to(disc.axis + Vec2{disc.bore, 0});
     canvas.arc(disc.axis, disc.bore, 0, 2 * std::numbers::pi);  // against the circle: it is cut out
     canvas.close();
     canvas.fill(p.steel);
-    canvas.circle(disc.centre, disc.radius - rim / 2);
+    outline_path(canvas, disc, rim / 2);
     canvas.stroke({p.steel_edge, rim});
     canvas.circle(disc.axis, disc.bore);
     canvas.stroke({p.steel_edge, bore});
@@ -129,6 +147,18 @@ void continue_into_hub(MechanismShape& s) {
 
 }  // namespace
 
+Vec2 DiscShape::rim(double share, double inset) const {
+    const double whole = share - std::floor(share);
+    if (outline.empty()) {
+        const Vec2 ray = sim::unit(angle + 2 * std::numbers::pi * whole);
+        return centre + Vec2{ray.x, -ray.y} * (radius - inset);
+    }
+    const double at = whole * static_cast<double>(outline.size());
+    const std::size_t i = std::min(static_cast<std::size_t>(at), outline.size() - 1), k = (i + 1) % outline.size();
+    const double part = at - static_cast<double>(i);
+    return outline[i] * (1 - part) + outline[k] * part - (outward[i] * (1 - part) + outward[k] * part) * inset;
+}
+
 double mark_unit(double beam_length, double unit) {
     constexpr double kUsual = 640;         // length of a beam with marks of full size [px]
     constexpr double kSmallestHub = 0.25;  // gives a hub of 5 px
@@ -146,7 +176,7 @@ double hub_radius(const sim::Problem& problem, const Camera& camera, double unit
     const double marks = mark_unit(problem, camera, unit);
     double boss = std::clamp(corner, 19 * marks, 36 * marks);
     if (problem.cam) {
-        const double free = norm(problem.cam->centre) - problem.cam->radius - problem.cam->eccentricity;
+        const double free = norm(problem.cam->centre) - cam_reach(problem);
         boss = std::min(boss, 0.7 * std::max(free, 0.0) * camera.scale);
     }
     return std::max({problem.hub.radius * camera.scale, boss, 1.0});

@@ -14,14 +14,19 @@
 namespace beamcam::render {
 
 struct DiscShape {
-    Vec2 centre, axis;  // B, C [px]
-    double radius = 0;  // [px]
+    Vec2 centre, axis;  // B, C [px]; both C for a cam with a profile
+    double radius = 0;  // [px]; of a cam with a profile that of the circle about C that it sweeps
     double bore = 0;    // radius of the bore about C [px]
     double angle = 0;   // of the mark, counter-clockwise [rad]
     Vec2 mark;          // centre of the drilled mark near the rim, on the ray C→B [px]
     double mark_radius = 0;
     double dot = 0;  // radius of the dot at B in the solid view, which grows with the zoom [px]
+    // Of a cam with a profile: points at equal distances along it from where contact_s is 0, and the outward normals.
+    std::vector<Vec2> outline = {}, outward = {};  // [px], counter-clockwise in the fixed axes; of length 1, y down
     bool operator==(const DiscShape&) const = default;
+
+    // The point of the outline at that share of its length, moved inwards [px].
+    Vec2 rim(double share, double inset) const;
 };
 
 struct MechanismShape {

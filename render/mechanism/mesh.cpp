@@ -127,6 +127,39 @@ void Mesh::cylinder(const Cylinder& c, Color color, const std::vector<Color>& ri
     while (under.size() > 2) cut_ears(under);
 }
 
+// Every point of the outline belongs to a point of the bore in the same direction from its centre.
+void Mesh::prism(const Prism& p, Color color, const std::vector<Color>& rim) {
+    const std::size_t n = p.outline.size();
+    const double edge = p.front - p.chamfer;
+    const Color dark = mix(color, rgb(0), 0.25);
+    std::vector<std::uint32_t> low, high, face, hole, inner, deep;
+    for (std::size_t i = 0; i < n; ++i) {
+        const Vec2 at = p.outline[i], out = p.outward[i], top = at - out * p.chamfer;
+        const Vec2 way = (at - p.hole) * (1 / norm(at - p.hole)), bore = p.hole + way * p.bore;
+        const Vec3 slanted = unit_of({out.x, out.y, 1}), in{-way.x, -way.y, 0};
+        low.push_back(add({at.x, at.y, edge}, slanted, color));
+        high.push_back(add({top.x, top.y, p.front}, slanted, color));
+        face.push_back(add({top.x, top.y, p.front}, {0, 0, 1}, color));
+        hole.push_back(add({bore.x, bore.y, p.front}, {0, 0, 1}, color));
+        inner.push_back(add({bore.x, bore.y, p.front}, in, dark));
+        deep.push_back(add({bore.x, bore.y, p.back}, in, dark));
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t k = (i + 1) % n;
+        const double middle = kWholeTurn * (static_cast<double>(i) + 0.5) / static_cast<double>(n);
+        const Color side = rim.empty() ? color : side_color(rim, middle, color);
+        const Vec2 a = p.outline[i], b = p.outline[k], u = p.outward[i], v = p.outward[k];
+        const std::uint32_t first = add({a.x, a.y, p.back}, {u.x, u.y, 0}, side);
+        add({b.x, b.y, p.back}, {v.x, v.y, 0}, side);
+        add({b.x, b.y, edge}, {v.x, v.y, 0}, side);
+        add({a.x, a.y, edge}, {u.x, u.y, 0}, side);
+        quad(first, first + 1, first + 2, first + 3);
+    }
+    band(low, high);
+    band(face, hole);
+    band(inner, deep);
+}
+
 void Mesh::bar(std::vector<Vec2> face, std::vector<Vec2> back, const std::vector<Color>& colors, double half) {
     const std::size_t n = face.size();
     // The section turns from face to back counter-clockwise about the direction from the first to the last station.

@@ -31,6 +31,14 @@ struct Cylinder {
     bool closed = false;  // has a back, which is never visible from the front
 };
 
+// A prism along z over a convex outline, with a chamfer at its front edge and a round bore.
+struct Prism {
+    std::vector<Vec2> outline, outward;  // counter-clockwise; unit normals
+    double back = 0, front = 0, chamfer = 0;
+    Vec2 hole;
+    double bore = 0;
+};
+
 // Any number of sides, at least 12, that Cylinder::sides accepts.
 constexpr int whole_sides(double sides) { return 4 * std::max(3, static_cast<int>(sides / 4 + 0.999)); }
 
@@ -43,6 +51,8 @@ struct Mesh {
     void box(Vec3 low, Vec3 high, Color color);
     // `rim`: colours of the side, counter-clockwise from the direction `mark` [rad], alpha 0: `color`; may be empty.
     void cylinder(const Cylinder& c, Color color, const std::vector<Color>& rim = {}, double mark = 0);
+    // `rim`: colours of the side from the first point of the outline on, equally spaced, as of a cylinder.
+    void prism(const Prism& p, Color color, const std::vector<Color>& rim = {});
     // A bar with the given edges, `half` wide to either side of the plane z = 0.
     void bar(std::vector<Vec2> face, std::vector<Vec2> back, const std::vector<Color>& colors, double half);
     void quad(const std::array<Vec3, 4>& at, Vec3 normal, Color color);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/cam/lever.hpp"
+
 namespace beamcam::render {
 namespace {
 
@@ -36,6 +38,10 @@ std::vector<TraceSample> sampled_contacts(const sim::Table& table) {
 // from the ray O→B with cos φ = (x + r)/|OB|. A slope of 1e-3 changes the result by a thousandth of the radius.
 double touched_arc(const sim::Problem& problem, const sim::Impact& impact) {
     const sim::Cam& cam = *problem.cam;
+    if (cam.profile) {  // where a straight lever on it would touch
+        const double alpha = sim::Lever(problem).at(-impact.cam_angle).alpha, turns = alpha / (2 * std::numbers::pi);
+        return sim::cam_shape(problem)->arc((turns - std::floor(turns)) * 2 * std::numbers::pi);
+    }
     const sim::Vec2 b = cam.centre + sim::unit(impact.cam_angle) * cam.eccentricity;
     const double share = std::clamp((impact.x + problem.hub.radius) / norm(b), -1.0, 1.0);
     const double to_disc = std::atan2(b.y, b.x);

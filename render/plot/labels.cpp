@@ -122,8 +122,10 @@ std::vector<std::string> parameter_pieces(const sim::Problem& problem, SpeedUnit
     out.push_back(size_piece(problem.beam));
     if (problem.beam.material) out.emplace_back(sim::name(*problem.beam.material));
     if (problem.cam) {
-        out.push_back(equation("R", quantity(problem.cam->radius, "m")));
-        out.push_back(equation("e", quantity(problem.cam->eccentricity, "m")));
+        if (!problem.cam->profile) {
+            out.push_back(equation("R", quantity(problem.cam->radius, "m")));
+            out.push_back(equation("e", quantity(problem.cam->eccentricity, "m")));
+        }
         if (problem.cam->speed != 0) out.push_back(equation("ω", turning_speed(problem.cam->speed, unit)));
     }
     if (problem.beam.model == sim::ModelKind::rigid)

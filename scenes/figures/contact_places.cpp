@@ -103,12 +103,15 @@ Figure forceful_places(const Subject& subject, const sim::Result& result, const 
     const auto &time = column(t, ChannelKind::t), &n = column(t, ChannelKind::contact_force),
                &x = column(t, ChannelKind::contact_x), &s = column(t, ChannelKind::contact_s);
     Places on_beam, on_cam;
+    // As an angle on a disc, else as a length.
+    const bool disc = !problem.cam->profile;
+    const double share = disc ? 180 / std::numbers::pi / problem.cam->radius : 1;
     for (std::size_t i = 0; i < time.size(); ++i) {
         if (!(n[i] > 0) || !std::isfinite(x[i] + s[i])) continue;
         // The end of a step is sampled again as the beginning of the next one.
         if (!on_beam.points.x.empty() && on_beam.points.x.back() == time[i]) continue;
         on_beam.add(time[i], x[i], n[i]);
-        on_cam.add(time[i], s[i] / problem.cam->radius * 180 / std::numbers::pi, n[i]);
+        on_cam.add(time[i], s[i] * share, n[i]);
     }
     if (on_beam.points.x.empty())
         throw render::PictureError(
@@ -116,7 +119,7 @@ Figure forceful_places(const Subject& subject, const sim::Result& result, const 
     on_beam.measure_beam();
     on_beam.sort_by_value(), on_cam.sort_by_value();
     std::vector<Panel> panels{places_panel(on_beam, end, on_beam.beam_label(), "$F$ / N"),
-                              places_panel(on_cam, end, "$s_{\\r{c}}$/$R$ / °", "$F$ / N")};
+                              places_panel(on_cam, end, disc ? "$s_{\\r{c}}$/$R$ / °" : "$s_{\\r{c}}$ / m", "$F$ / N")};
     panels[0].title = phrase(lang, "on the beam"), panels[1].title = phrase(lang, "on the cam");
     if (const sim::Collision* first = collision_of(problem, result, 1))
         if (auto inset = first_collision(*first, end, t, on_beam.measure.factor, panels[0], lang))

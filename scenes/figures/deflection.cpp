@@ -25,7 +25,7 @@ struct Inclination {
 
 // The rod that is tangent to the disc, or the initial angle if there is no such rod.
 Inclination inclination(const sim::Problem& p) {
-    if (p.cam) {
+    if (p.cam && !p.cam->profile) {
         const double distance = norm(p.cam->centre), radius = p.cam->radius;
         if (distance > radius && std::sqrt(distance * distance - radius * radius) < p.beam.length) {
             const double angle = std::asin(radius / distance) + std::atan2(p.cam->centre.y, p.cam->centre.x);

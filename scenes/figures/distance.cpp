@@ -218,6 +218,7 @@ std::optional<std::string> needs_tangent(const Scene& scene) {
     if (auto no_cam = needs_cam(scene)) return no_cam;
     if (auto resting = needs_start_off_the_cam(scene)) return resting;
     const sim::Cam& cam = *scene.problem.cam;
+    if (cam.profile) return "it is drawn for a disc: leave out cam.profile";
     const double distance = norm(cam.centre);
     if (distance - cam.eccentricity <= cam.radius) return "the cam reaches the hinge, so no tangent to it exists";
     return refusal_of_variants({without_cam(scene.problem)});

@@ -5,8 +5,10 @@
 #include <optional>
 #include <variant>
 
+#include "render/mechanism/cam_outline.hpp"
 #include "scenes/figures/figure_types.hpp"
 #include "scenes/figures/sketch.hpp"
+#include "sim/cam/lever.hpp"
 #include "sim/problem/problem.hpp"
 
 namespace beamcam::scenes {
@@ -20,6 +22,10 @@ struct Tangent {
 };
 std::optional<Tangent> resting_tangent(const sim::Problem& p) {
     if (p.initial.shape != sim::InitialShape::resting || !p.cam) return std::nullopt;
+    if (p.cam->profile) {
+        const sim::Lever::State lever = sim::Lever(p).at(-p.cam->phase);
+        return Tangent{lever.motion.theta, lever.foot};
+    }
     const Vec2 b = disc_centre(*p.cam, 0);
     const double distance = norm(b), reach = p.cam->radius + contact_offset(p);
     if (!(reach < distance)) return std::nullopt;
@@ -74,23 +80,36 @@ class Drawing : private Sketch {
     // The disc to scale, and magnified beside it with its symbols, for which it is too small.
     void cam() {
         const sim::Cam& cam = *p_.cam;
-        const Vec2 c = cam.centre, b = disc_centre(cam, 0);
-        disc(b, cam.radius);
+        const Vec2 c = cam.centre, b = cam.profile ? c : disc_centre(cam, 0);
+        const double reach = cam.profile ? render::cam_reach(p_) : cam.radius;
+        if (cam.profile) {
+            sim::Pose start;
+            start.cam_centre = c;
+            start.cam_angle = cam.phase;
+            std::vector<Vec2> outline = render::placed_outline(p_, start, 240);
+            add({.kind = Kind::area, .points = outline, .color = kSteel});
+            add({.kind = Kind::line, .points = std::move(outline), .color = kInk, .width = 0.9});
+        } else {
+            disc(b, cam.radius);
+        }
         dot(c);
         const double near = c.x < 0 ? 0.7 : 1;  // the drawing is wider then, and the disc smaller on paper
         // Within the disc and clear of the axis X, or on the magnified one alone.
         for (const double side : {-0.75, 0.75}) {
             const Vec2 beside = near * Vec2{side, c.y > 0 ? 0.8 : -0.8};
-            if (norm(c + letter_height() * beside - b) + 0.3 * letter_height() > cam.radius) continue;
+            if (norm(c + letter_height() * beside - b) + 0.3 * letter_height() >
+                (cam.profile ? sim::cam_shape(p_)->least_height() : cam.radius))
+                continue;
             label(c, "$C$", beside);
             break;
         }
         const double low =  // below disc and hub
-            std::min(std::min(b.y, c.y) - cam.radius - 0.13 * unit_, -p_.hub.radius - 0.1 * unit_);
+            std::min(std::min(b.y, c.y) - reach - 0.13 * unit_, -p_.hub.radius - 0.1 * unit_);
         line({0, -0.02 * unit_}, {0, low - 0.02 * unit_}, kGrey);
         line(c, {c.x, low - 0.02 * unit_}, kGrey, 0, {3, 3});
         dimension({0, low}, {c.x, low});
         label({0.5 * c.x, low}, "$D$", {0, -0.85});
+        if (cam.profile) return;
 
         const double radius = kMagnified * unit_, zoom = radius / cam.radius;
         const double away = (1.2 * cam.radius + 1.35 * radius) * (c.x < 0 ? -1 : 1);  // from the hub
@@ -108,8 +127,9 @@ class Drawing : private Sketch {
 
     // Fixed: X, Y. Moving: x′ along the undeformed beam, y′ normal to it.
     void frames() {
-        const double reach =
-            std::max(1.12 * size_ * std::cos(theta_), p_.cam ? p_.cam->centre.x + 1.5 * p_.cam->radius : 0.0);
+        const double reach = std::max(
+            1.12 * size_ * std::cos(theta_),
+            p_.cam ? p_.cam->centre.x + 1.5 * (p_.cam->profile ? render::cam_reach(p_) : p_.cam->radius) : 0.0);
         arrow({-0.06 * unit_, 0}, {reach, 0});
         label({reach, 0}, "$X$", {0.2, theta_ < 0.6 ? -0.9 : 0.8});  // clear of beam and magnified disc
         arrow({0, -0.06 * unit_}, {0, 0.42 * unit_});

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
+#include "render/mechanism/cam_outline.hpp"
 #include "render/mechanism/exaggeration.hpp"
 #include "render/plot/ticks.hpp"
 #include "scenes/figures/figure_types.hpp"
@@ -17,14 +19,24 @@ using sim::Vec2;
 
 constexpr int kShownPoses = 9, kPoseStations = 65;
 
+// The cam, and the line to its mark from the centre of a disc, or from the axis.
+void add_outline(const sim::Pose& pose, const sim::Problem& problem, std::optional<render::Color> fill,
+                 render::Color color, double width, Sketch& to, render::Bounds& extent) {
+    constexpr int kPoints = 240;
+    std::vector<Vec2> outline = render::placed_outline(problem, pose, kPoints);
+    for (const Vec2 p : outline) extent.add(p);
+    const Vec2 from = problem.cam->profile ? pose.cam_centre : disc_centre(*problem.cam, pose.t),
+               mark = outline.front();
+    if (fill) to.add({.kind = Sketch::Kind::area, .points = outline, .color = *fill});
+    to.add({.kind = Sketch::Kind::line, .points = std::move(outline), .color = color, .width = width});
+    to.line(from, mark, color, 0.6);
+}
+
 void add_pose(const sim::Pose& pose, const sim::Problem& problem, render::Color color, Sketch& to,
               render::Bounds& extent) {
     for (const Vec2 p : pose.centreline) extent.add(p);
     to.add({.kind = Sketch::Kind::line, .points = pose.centreline, .color = color, .width = 1.6});
-    if (!problem.cam) return;
-    extent.add(pose.disc_centre, problem.cam->radius);
-    to.circle(pose.disc_centre, problem.cam->radius, color, 0.9);
-    to.line(pose.disc_centre, pose.disc_centre + problem.cam->radius * sim::unit(pose.cam_angle), color, 0.6);
+    if (problem.cam) add_outline(pose, problem, {}, color, 0.9, to, extent);
 }
 
 // One instant: bodies to scale, and the force between them.
@@ -32,10 +44,7 @@ void add_bodies(const sim::Pose& pose, const sim::Problem& problem, Sketch& to, 
     constexpr double kOutline = 0.8;
     constexpr render::Color kSteel = render::rgb(0xE4E6EB);
     if (problem.cam) {
-        extent.add(pose.disc_centre, problem.cam->radius);
-        to.disc(pose.disc_centre, problem.cam->radius, kSteel, kOutline);
-        to.line(pose.disc_centre, pose.disc_centre + problem.cam->radius * sim::unit(pose.cam_angle), Sketch::kInk,
-                0.6);
+        add_outline(pose, problem, kSteel, Sketch::kInk, kOutline, to, extent);
     }
     if (problem.hub.radius > 0) to.disc({0, 0}, problem.hub.radius, kSteel, kOutline);
     const render::DrawnBeam beam = render::drawn_beam(problem, pose, 1, beam_depth(problem.beam));

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <mutex>
 #include <numbers>
 
 #include "sim/base/numerics.hpp"
@@ -226,6 +228,27 @@ void CamShape::find_kinks(const std::vector<double>& ends, double size) {
             std::fabs(after.radius_slope(after.from) - before.radius_slope(there)) > kJumpOfSlope * size)
             kinks_.push_back(after.from);
     }
+}
+
+std::shared_ptr<const CamShape> cam_shape(const Problem& problem) {
+    if (!problem.cam) return std::make_shared<const CamShape>(Problem{});
+    if (!problem.cam->profile) return std::make_shared<const CamShape>(problem);
+    struct Kept {
+        Profile profile;
+        Vec2 centre;
+        double offset = 0;
+        std::shared_ptr<const CamShape> shape;
+    };
+    constexpr std::size_t kMostKept = 8;
+    static std::mutex mutex;
+    static std::deque<Kept> kept;
+    const double offset = contact_offset(problem);
+    const std::scoped_lock lock(mutex);
+    for (const Kept& k : kept)
+        if (k.offset == offset && k.centre == problem.cam->centre && k.profile == *problem.cam->profile) return k.shape;
+    kept.push_back({*problem.cam->profile, problem.cam->centre, offset, std::make_shared<const CamShape>(problem)});
+    if (kept.size() > kMostKept) kept.pop_front();
+    return kept.back().shape;
 }
 
 void CamShape::find_extremes() {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -66,5 +67,9 @@ class CamShape {
     double least_radius_ = 0, largest_radius_ = 0, least_height_ = 0, largest_reach_ = 0, largest_slope_ = 0,
            largest_arm_ = 0;
 };
+
+// The shape of the problem's cam, or of the default one without a cam. A film, an orbit or a sweep asks for the same
+// one thousands of times, and a profile takes about a millisecond: the last ones are kept.
+std::shared_ptr<const CamShape> cam_shape(const Problem& problem);
 
 }  // namespace beamcam::sim

@@ -16,7 +16,7 @@ constexpr int kNormalsOfSearch = 128;
 }  // namespace
 
 TurningCam::TurningCam(const Problem& problem)
-    : shape_(std::make_shared<const CamShape>(problem.cam ? problem : Problem{})),
+    : shape_(cam_shape(problem)),
       axis_(problem.cam.value_or(Cam{}).centre),
       phase_(problem.cam.value_or(Cam{}).phase),
       speed_(problem.cam.value_or(Cam{}).speed),

@@ -106,7 +106,7 @@ std::string inertia_message(const Problem& p) {
 }
 
 std::string passed_cam_message(const Problem& p, const BeamState& beam) {
-    const double n = contact_exponent(p), k = contact_stiffness(p), radius = CamShape(p).inner_radius();
+    const double n = contact_exponent(p), k = contact_stiffness(p), radius = cam_shape(p)->inner_radius();
     const double depth = impact_depth(n, k, beam.mass, beam.approach);
     const std::string law = fmt::format("{:g} N/m^{:g}", k, n);
     if (depth < 0.5 * radius) {

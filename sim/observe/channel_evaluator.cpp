@@ -301,7 +301,8 @@ Pose ChannelEvaluator::pose(int stations) {
     const TurningCam& cam = system_.cam();
     const ContactState& c = contact();
     pose.cam_centre = cam.axis();
-    pose.disc_centre = cam.is_disc() ? c.disc.centre : cam.axis();
+    pose.disc_centre = c.disc.centre;
+    pose.disc_radius = c.disc.radius;
     pose.cam_angle = cam.angle(t_);
     Nearest nearest;
     nearest.x = c.x;

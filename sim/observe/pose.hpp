@@ -27,7 +27,8 @@ struct Pose {
     std::vector<Vec2> centreline;    // equally spaced in arc position, root first, tip last [m]
     std::vector<double> moment;      // bending moment EI κ at the same stations [N m]
     Vec2 cam_centre;                 // C (axis) [m]; meaningless without a cam
-    Vec2 disc_centre;                // B [m]; C of a cam with a profile
+    Vec2 disc_centre;                // B of the disc that osculates the cam at the nearest point [m]
+    double disc_radius = 0;          // ρ there [m]
     double cam_angle = 0;            // ψ, unwrapped [rad]; the mark is the ray C→B
     std::optional<Nearest> nearest;  // absent without a cam
 };

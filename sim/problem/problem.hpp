@@ -136,24 +136,29 @@ struct LawSegment {
     MotionLaw law = MotionLaw::dwell;
     double rise = 0;             // change of the lever's angle [rad]; 0 of a dwell
     std::optional<double> over;  // turn of the cam [rad], > 0; absent: the rest of the turn, of the last segment only
+    bool operator==(const LawSegment&) const = default;
 };
 // The outline that moves a straight lever, whose face is the contact face, by a law of the cam's turn φ = −ψ.
 struct LawProfile {
     double lowest = 0;                 // θ at φ = 0 [rad]
     std::vector<LawSegment> segments;  // rises that sum to 0
+    bool operator==(const LawProfile&) const = default;
 };
 struct Arc {
     Vec2 centre;        // in the cam's frame [m]
     double radius = 0;  // [m], > 0
+    bool operator==(const Arc&) const = default;
 };
 // Arcs about the cam, counter-clockwise, each tangent inside to the next; one arc is a disc.
 struct ArcsProfile {
     std::vector<Arc> arcs;
+    bool operator==(const ArcsProfile&) const = default;
 };
 // Points of a closed convex outline in the cam's frame, in order, at least 24; joined by a periodic spline of the
 // support function.
 struct PointsProfile {
     std::vector<double> x, y;  // [m]
+    bool operator==(const PointsProfile&) const = default;
 };
 using Profile = std::variant<LawProfile, ArcsProfile, PointsProfile>;
 

@@ -25,7 +25,7 @@ struct Scale {
 Scale scale_of(const Problem& problem, const SampledMotion& motion) {
     double lift = 0;
     if (problem.cam && norm(problem.cam->centre) > 0)
-        lift = CamShape(problem).largest_slope() / norm(problem.cam->centre);
+        lift = cam_shape(problem)->largest_slope() / norm(problem.cam->centre);
     if (lift == 0) lift = kUsualLift;
     lift = std::max(lift, motion.accuracy / kSameState);
     return {lift, lift / cam_period(problem)};
@@ -121,7 +121,7 @@ AttractorClass class_without_period(const Problem& problem, const LargestExponen
 }
 
 bool nothing_moves(const Problem& problem, const Scale& scale, Strobes s) {
-    const bool still = !problem.cam || problem.cam->speed == 0 || CamShape(problem).largest_slope() == 0;
+    const bool still = !problem.cam || problem.cam->speed == 0 || cam_shape(problem)->largest_slope() == 0;
     return still && mismatch(scale, s, 1) < kSameState &&
            std::ranges::all_of(s, [&](const Strobe& at) { return std::fabs(at.theta_dot) < kSameState * scale.rate; });
 }

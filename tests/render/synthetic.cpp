@@ -49,6 +49,7 @@ sim::Pose synthetic_pose(const sim::Problem& problem, const Synthetic& how, doub
         pose.cam_centre = problem.cam->centre;
         pose.cam_angle = problem.cam->phase - problem.cam->speed * t;
         pose.disc_centre = pose.cam_centre + sim::unit(pose.cam_angle) * problem.cam->eccentricity;
+        pose.disc_radius = problem.cam->radius;
         rest = resting(problem, pose.disc_centre).theta;
     }
     const double straight = rest + lift;

@@ -1,5 +1,6 @@
 #include "render/gl/module/lit_painter.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -18,6 +19,27 @@ struct StripMesh {
     std::vector<Vertex> vertices;
     float length = 0, depth = 0;
 };
+// A closed strip has no ends, and no edge at its back: the shader takes it for half of one of twice the depth.
+StripMesh closed_mesh(const LitStrip& strip, double margin) {
+    constexpr float kFarFromEnds = 1e6F;  // [px]
+    StripMesh mesh;
+    for (std::size_t k = 0; k <= strip.face.size(); ++k) {
+        const std::size_t i = k % strip.face.size();
+        const Vec2 across = strip.back[i] - strip.face[i];
+        const double depth = norm(across);
+        const Vec2 u = across * (1 / depth), edge = strip.face[i] - u * margin;
+        const Color& c = strip.colors[i];
+        const auto vertex = [&](Vec2 p, double t) {
+            mesh.vertices.push_back({float(p.x), float(p.y), kFarFromEnds, float(t), float(u.x), float(u.y), float(c.r),
+                                     float(c.g), float(c.b)});
+        };
+        vertex(edge, -margin);
+        vertex(strip.back[i], depth);
+        mesh.depth = std::max(mesh.depth, static_cast<float>(2 * depth));
+    }
+    mesh.length = 2 * kFarFromEnds;
+    return mesh;
+}
 StripMesh strip_mesh(const LitStrip& strip, double margin) {
     StripMesh mesh;
     const std::size_t n = strip.face.size();
@@ -39,6 +61,7 @@ StripMesh strip_mesh(const LitStrip& strip, double margin) {
         const Vec2 d = middle(b) - middle(a);
         return d * (1 / norm(d));
     };
+    if (strip.closed) return closed_mesh(strip, margin);
     add(0, direction(0, 1) * -margin, -margin);
     for (std::size_t i = 0; i < n; ++i) {
         if (i > 0) along += norm(middle(i) - middle(i - 1));
@@ -91,9 +114,11 @@ void LitPainter::draw_shapes(const LitScene& scene) {
     // Shadows fall to the lower right, on the wall behind everything.
     const Vec2 fall{7 * scene.unit, 11 * scene.unit};
     const float soft = static_cast<float>(11 * scene.unit), opacity = static_cast<float>(scene.shadow);
+    if (scene.cam) draw_strip(*scene.cam, fall, soft, opacity);
     for (const LitRound& r : scene.behind)
         if (r.shadow) draw_round(r, fall, soft, opacity);
     draw_strip(scene.strip, fall, soft, opacity);
+    if (scene.cam) draw_strip(*scene.cam, {}, 0, 1);
     for (const LitRound& r : scene.behind) draw_round(r, {}, 0, 1);
     draw_strip(scene.strip, {}, 0, 1);
     const Vec2 near = fall * 0.35;

@@ -138,6 +138,7 @@ TEST(Exaggeration, TheSideOfTheCamIsThatOfTheContact) {
     sim::Pose pose;
     const double radius = film.problem.cam->radius, length = film.problem.beam.length;
     pose.disc_centre = {0.4 * length, 0};
+    pose.disc_radius = radius;
     pose.theta = -0.3;
     for (int i = 0; i <= 100; ++i) {
         const double x = length * i / 100;

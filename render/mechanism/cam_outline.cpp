@@ -1,0 +1,50 @@
+#include "render/mechanism/cam_outline.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "sim/cam/cam_shape.hpp"
+
+namespace beamcam::render {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+
+}  // namespace
+
+// The normal at the arc s by Newton's method, ds/dα = ρ, from the one before.
+CamOutline cam_outline(const sim::Problem& problem, int count) {
+    constexpr int kSteps = 4;  // the first point of a sharp nose needs the most
+    const auto shape = sim::cam_shape(problem);
+    const double whole = shape->arc(kTurn);
+    CamOutline out;
+    double alpha = 0;
+    for (int i = 0; i < count; ++i) {
+        const double s = whole * i / count;
+        for (int k = 0; k < kSteps; ++k)
+            alpha = std::clamp(alpha + (s - shape->arc(alpha)) / shape->at(alpha).radius, 0.0, kTurn);
+        out.points.push_back(shape->at(alpha).position(alpha));
+        out.normals.push_back(sim::unit(alpha));
+    }
+    return out;
+}
+
+int outline_points(double reach) { return std::clamp(static_cast<int>(8 * std::sqrt(std::max(reach, 1.0))), 60, 480); }
+
+sim::Vec2 on_cam(const sim::Pose& pose, sim::Vec2 point) {
+    const sim::Vec2 along = sim::unit(pose.cam_angle);
+    return pose.cam_centre + point.x * along + point.y * sim::perp(along);
+}
+
+std::vector<sim::Vec2> placed_outline(const sim::Problem& problem, const sim::Pose& pose, int count) {
+    std::vector<sim::Vec2> out;
+    for (const sim::Vec2 p : cam_outline(problem, count).points) out.push_back(on_cam(pose, p));
+    out.push_back(out.front());
+    return out;
+}
+
+double cam_reach(const sim::Problem& problem) { return sim::cam_shape(problem)->largest_reach(); }
+double cam_circumference(const sim::Problem& problem) { return sim::cam_shape(problem)->arc(kTurn); }
+
+}  // namespace beamcam::render
