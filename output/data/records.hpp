@@ -10,6 +10,7 @@
 #include "output/files/target.hpp"
 #include "output/files/work.hpp"
 #include "sim/beam/modes.hpp"
+#include "sim/cam/lever.hpp"
 #include "sim/observe/channels.hpp"
 #include "sim/problem/problem.hpp"
 #include "sim/run/simulate.hpp"
@@ -38,6 +39,7 @@ std::string modes_json(const std::vector<sim::Mode>& modes);
 // Every row of the assessment, its conditions and the recommendation.
 std::string accuracy_json(const sim::Accuracy& accuracy);
 // The largest value of a channel, its change by each variant, and the recommendation; in the channel's unit.
+std::string cam_json(const sim::Lever::Summary& summary);
 std::string peak_json(const sim::PeakBudget& budget, const std::string& unit);
 
 }  // namespace beamcam::output

@@ -31,14 +31,6 @@ std::string content_of(const Result& result, const ResultFiles& files, Scene sce
     return figure_files(figure, how, to_json(scene)).front().second;
 }
 
-output::FileTarget target_of(const std::string& file, const Scene& scene, output::FileList& file_list) {
-    const std::string ending = ending_of(file);
-    if (ending != ".pdf" && ending != ".svg") return file_list.target(file);
-    Scene shown = scene;
-    shown.outputs.clear();
-    return file_list.target(file, {.inputs = {}, .version = std::string(kVersion), .scene = to_json(shown)});
-}
-
 void write_to(const std::string& file, const Result& result, const ResultFiles& files, const Scene& scene,
               output::FileList& file_list) {
     if (is_stdout(file))
@@ -50,6 +42,14 @@ void write_to(const std::string& file, const Result& result, const ResultFiles& 
 }
 
 }  // namespace
+
+output::FileTarget target_of(const std::string& file, const Scene& scene, output::FileList& file_list) {
+    const std::string ending = ending_of(file);
+    if (ending != ".pdf" && ending != ".svg") return file_list.target(file);
+    Scene shown = scene;
+    shown.outputs.clear();
+    return file_list.target(file, {.inputs = {}, .version = std::string(kVersion), .scene = to_json(shown)});
+}
 
 void add_result_options(Command& app, ResultFiles& files, Common& common, const char* what) {
     app.option("-o,--output", &files.names, "FILE", what);

@@ -42,6 +42,9 @@ int write_result(const Result& result, const ResultFiles& files, const Scene& sc
 // --transient of `lyapunov` and `orbits` [s], a span_argument.
 double transient_argument(const std::string& text, const sim::Problem& problem);
 
+// A file that carries the scene without outputs where it is .pdf or .svg.
+output::FileTarget target_of(const std::string& file, const Scene& scene, output::FileList& file_list);
+
 bool is_table(const std::string& file);  // by its ending
 
 }  // namespace beamcam::scenes

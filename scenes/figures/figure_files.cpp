@@ -28,16 +28,6 @@ std::int64_t creation_instant() {
     return instant && *instant >= 0 && *instant <= kLatest ? *instant : 0;
 }
 
-figure::Document document_of(const figure::Figure& f, const std::string& scene) {
-    figure::Document d;
-    d.title = render::to_plain(f.title);
-    d.subject = render::to_plain(whole_caption(f));
-    d.scene = scene;
-    d.creator = fmt::format("beamcam {}", kVersion);
-    d.created = creation_instant();
-    return d;
-}
-
 figure::Page page_of(const figure::Figure& f, const FigureOutput& how) {
     const figure::Column* column = figure::column_named(how.column);
     if (!column) throw render::PictureError(fmt::format("figure {}: there is no column \"{}\"", f.name, how.column));
@@ -58,7 +48,7 @@ auto drawn(const figure::Figure& f, const FigureOutput& how, figure::Medium medi
 }
 
 std::string bytes_of(const figure::Figure& f, const FigureOutput& how, const std::string& scene) {
-    const figure::Document document = document_of(f, scene);
+    const figure::Document document = document_of(render::to_plain(f.title), render::to_plain(whole_caption(f)), scene);
     const std::string ending = ending_of(how.file);
     if (ending != ".png")
         return drawn(f, how, ending == ".pdf" ? figure::Medium::pdf : figure::Medium::svg, document,
@@ -72,6 +62,11 @@ std::string bytes_of(const figure::Figure& f, const FigureOutput& how, const std
 }
 
 }  // namespace
+
+figure::Document document_of(std::string title, std::string subject, std::string scene) {
+    return {std::move(title), std::move(subject), std::move(scene), fmt::format("beamcam {}", kVersion),
+            creation_instant()};
+}
 
 render::Image figure_image(const figure::Figure& f, const FigureOutput& how) {
     return drawn(f, how, figure::Medium::png, {}, [](figure::PageCanvas& sheet) { return sheet.image(); });

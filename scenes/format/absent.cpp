@@ -19,8 +19,8 @@ struct Absent {
 // Words of `not_modelled` are one or more parts of a key: "spring" is found in "return_spring" and in "springRate". A
 // word may begin with the object that has the key: "hub.damping". A value is "key=word".
 constexpr Absent kAbsent[] = {
-    {WordKind::not_modelled, "profile lift lift_table polynomial ellipse base_circle lobe",
-     "the cam is an eccentric disc: profiles and lift tables are not modelled"},
+    {WordKind::key, "lift lift_table polynomial ellipse base_circle lobe",
+     "\"profile\" of the cam describes any convex outline: by a motion law, by arcs or by points"},
     {WordKind::not_modelled, "cam.acceleration cam.drive cam.torque cam.inertia cam.mass",
      "the cam turns at constant speed: its own dynamics are not modelled"},
     {WordKind::not_modelled, "cams beams", "several cams or beams are not modelled; \"compare\" shows several motions"},

@@ -77,6 +77,7 @@ class Describer final : public SceneVisitor {
         DescribedKey& d = add_key(key,
                                   length.or_one_number ? "number or numbers"
                                   : fixed              ? fmt::format("{} numbers", length.min)
+                                  : columns_           ? "numbers, name of a column, or @FILE.csv:COLUMN"
                                                        : "numbers, or @FILE.csv:COLUMN",
                                   meaning);
         d.unit = symbol(unit);
@@ -85,7 +86,8 @@ class Describer final : public SceneVisitor {
         if (length.min > 0) add(list, "minItems", length.min);
         if (fixed) add(list, "maxItems", length.max);
         add(list, "items", item);
-        if (!fixed) list = one_of("anyOf", {std::move(list), node_of(R"({"type": "string", "pattern": "^@.+:.+$"})")});
+        const char* column = columns_ ? R"({"type": "string"})" : R"({"type": "string", "pattern": "^@.+:.+$"})";
+        if (!fixed) list = one_of("anyOf", {std::move(list), node_of(column)});
         d.schema = length.or_one_number ? one_of("anyOf", {bounded(range), with_text(unit), std::move(list)})
                                         : std::move(list);
         if (!values.empty()) d.value = values;

@@ -19,7 +19,7 @@ std::optional<std::pair<std::string, std::string>> file_column_in(std::string_vi
 }
 
 FileColumn read_file_column(const std::filesystem::path& file, const std::string& column,
-                            const sim::Dimension& dimension, bool gaps) {
+                            const sim::Dimension& dimension, bool gaps, const std::string& unit) {
     FileColumn out;
     try {
         const output::ColumnTable table =
@@ -37,10 +37,13 @@ FileColumn read_file_column(const std::filesystem::path& file, const std::string
                 fmt::format("{}, {}: the cell of the column {} is empty", file.string(),
                             table.row_name(static_cast<std::size_t>(empty - out.values.begin())), in_quotes(column))};
         std::erase_if(out.values, [](double value) { return std::isnan(value); });
-        const std::string& unit = table.column(column)->unit;
-        const QuantityText given = parse_quantity("1 " + unit);
-        if (!unit.empty() && given.quantity && same(given.quantity->dimension, dimension))
+        const std::string& stated = unit.empty() ? table.column(column)->unit : unit;
+        const QuantityText given = parse_quantity("1 " + stated);
+        if (!stated.empty() && given.quantity && same(given.quantity->dimension, dimension))
             for (double& value : out.values) value *= given.quantity->value;
+        else if (!unit.empty())
+            out.problem = fmt::format("{} is not a unit of the column {}, which is measured in {}", in_quotes(unit),
+                                      in_quotes(column), si_unit(dimension));
     } catch (const output::IoError& error) {
         return {{}, error.what()};
     }

@@ -20,8 +20,9 @@ struct FileColumn {
     std::vector<double> values;
     std::string problem;
 };
-// The values are in SI units if the file states a unit of this dimension. `gaps`: whether cells may be empty.
+// The values are in SI units if `unit`, or else the file, states a unit of this dimension. `gaps`: whether cells may be
+// empty.
 FileColumn read_file_column(const std::filesystem::path& file, const std::string& column,
-                            const sim::Dimension& dimension, bool gaps);
+                            const sim::Dimension& dimension, bool gaps, const std::string& unit = {});
 
 }  // namespace beamcam::scenes

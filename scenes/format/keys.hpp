@@ -53,6 +53,12 @@ class SceneVisitor : public sim::Visitor {
     // A value with its own notation; with `fields` an object with these keys, too.
     virtual void value(const Key& key, const ValueFormat& format, const char* meaning, const Fields& fields = {}) = 0;
     virtual void list(const Key& key, const List& list, const char* meaning) = 0;
+    void list(const Key& key, const sim::Objects& objects, const char* meaning) final {
+        List all{objects.size, objects.item, objects.min_size, objects.max_size, objects.of};
+        list(key, all, meaning);
+    }
+    // The keys "file" and "units"; lists that are visited after them may be names of the file's columns.
+    void file_of_columns() final;
     virtual void named(const Key& key, const NamedItems& items, const char* meaning) = 0;
     void exclusive(const char* one, const char* other) override = 0;
     virtual void problem(sim::Problem& problem) { visit(*this, problem); }
@@ -92,7 +98,16 @@ class SceneVisitor : public sim::Visitor {
                     visit(v, values[index]);
                 }};
     }
+
+  protected:
+    struct ColumnsFile {
+        std::string file;
+        std::vector<std::pair<std::string, std::string>> units;  // by column
+    };
+    std::optional<ColumnsFile> columns_;  // of the object that is visited
 };
+
+ValueFormat column_units_format(std::vector<std::pair<std::string, std::string>>& units);
 
 inline constexpr sim::Named<render::Style> kStyles[] = {
     {render::Style::lit, "lit"}, {render::Style::flat, "flat"}, {render::Style::solid, "solid"}};

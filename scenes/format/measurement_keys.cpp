@@ -5,7 +5,6 @@
 #include "scenes/format/units.hpp"
 
 namespace beamcam::scenes {
-namespace {
 
 ValueFormat column_units_format(std::vector<std::pair<std::string, std::string>>& units) {
     const auto read = [&units](ObjectReader& r, const Node& node, const std::string& key) {
@@ -24,6 +23,16 @@ ValueFormat column_units_format(std::vector<std::pair<std::string, std::string>>
     };
     return {"object of units", R"({"type": "object", "additionalProperties": {"type": "string"}})", read, write};
 }
+
+void SceneVisitor::file_of_columns() {
+    columns_.emplace();
+    text(sim::written_if(false, "file"), columns_->file,
+         "A .csv or .npz file with the columns that other keys name; its path is relative to the scene's folder.");
+    value(sim::written_if(false, "units"), column_units_format(columns_->units),
+          "Units of columns, by their names: {\"x\": \"mm\"}; by default those that the file states, or SI units.");
+}
+
+namespace {
 
 // A number, or a text with a unit, for each column: {"angle": -1}; `for_all`: or one for all columns.
 ValueFormat column_numbers_format(std::vector<ColumnNumber>& numbers, bool for_all) {

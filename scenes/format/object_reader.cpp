@@ -100,9 +100,13 @@ void ObjectReader::numbers(const Key& key, std::vector<double>& values, const Un
     const Node* node = take(key);
     if (!node) return;
     const bool fixed = length.min == length.max;
-    if (const auto column = file_column_in(node->text); column && !fixed && node->kind == Node::Kind::string) {
-        if (const auto read = column_value(*node, key.name, *column, unit, range)) values = *read;
-        return;
+    if (node->kind == Node::Kind::string && !fixed) {
+        auto column = file_column_in(node->text);
+        if (!column && columns_ && !columns_->file.empty()) column = std::pair(columns_->file, node->text);
+        if (column) {
+            if (const auto read = column_value(*node, key.name, *column, unit, range)) values = *read;
+            return;
+        }
     }
     if (length.or_one_number && node->kind != Node::Kind::array) {
         if (const auto one = ranged_value(*node, key.name, unit, range)) values = {*one};
@@ -215,11 +219,10 @@ void ObjectReader::alternatives(const std::vector<Alternative>& all, bool explic
         }
         std::erase_if(left, [&](const Alternative* each) { return each->tags[depth].second != *word; });
     }
-    // Shapes with the same tags differ by their keys; the first shape is the default.
-    const auto named = std::find_if(left.rbegin(), left.rend(), [&](const Alternative* each) {
-        return std::ranges::any_of(keys_of(*each), [&](const std::string& key) { return has(key); });
-    });
-    (named == left.rend() ? left.front() : *named)->fields(*this);
+    // Shapes with the same tags differ by their keys: that with the most of them, or else the first.
+    (*std::ranges::max_element(left, {}, [&](const Alternative* each) {
+        return std::ranges::count_if(keys_of(*each), [&](const std::string& key) { return has(key); });
+    }))->fields(*this);
 }
 
 void ObjectReader::value(const Key& key, const ValueFormat& format, const char*, const Fields& fields) {

@@ -124,7 +124,7 @@ class ObjectReader final : public SceneVisitor {
                                                     const sim::Unit& unit, const sim::Range& range);
 
     // ---- visited keys ----
-    using SceneVisitor::number, SceneVisitor::numbers, SceneVisitor::object, SceneVisitor::integer;
+    using SceneVisitor::number, SceneVisitor::numbers, SceneVisitor::object, SceneVisitor::integer, SceneVisitor::list;
     void number(const Key& key, std::optional<double>& value, const sim::Unit& unit, const sim::Range& range,
                 const char* meaning, const char* word = nullptr) override;
     void numbers(const Key& key, std::vector<double>& values, const sim::Unit& unit, const sim::Range& range,

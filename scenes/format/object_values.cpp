@@ -104,7 +104,10 @@ std::optional<std::vector<double>> ObjectReader::column_value(const Node& node, 
                                                               const sim::Unit& unit, const sim::Range& range) {
     const std::filesystem::path folder =
         context_ ? std::filesystem::path(context_->source.name).parent_path() : std::filesystem::path();
-    FileColumn read = read_file_column(folder / column.first, column.second, unit.resolved(), false);
+    std::string own_unit;
+    for (const auto& [name, stated] : columns_.value_or(ColumnsFile{}).units)
+        if (name == column.second) own_unit = stated;
+    FileColumn read = read_file_column(folder / column.first, column.second, unit.resolved(), false, own_unit);
     if (same(unit.resolved(), dimension::kAngle) && first_wrap(read.values, kFullTurn)) {
         unwrap(read.values, kFullTurn);
         warn(key,

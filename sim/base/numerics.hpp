@@ -154,6 +154,7 @@ Vec2 climb(F&& f, Vec2 a, Vec2 b, Vec2 c, double to_beat, double negligible) {
 template <class F>
 Vec2 largest_over(const std::vector<double>& ends, F&& f) {
     constexpr int kSamples = 8;        // in an interval
+    constexpr int kHalvings = 20;      // of the part between an end and the next sample
     constexpr double kInside = 1e-13;  // of an interval: its last sample does not belong to the next one
     Vec2 best{ends.front(), -std::numeric_limits<double>::infinity()};
     const auto keep = [&best](const Vec2& at) {
@@ -166,9 +167,26 @@ Vec2 largest_over(const std::vector<double>& ends, F&& f) {
             const double x = ends[i] + width * static_cast<double>(k) / kSamples;
             keep(samples[k] = {x, f(x)});
         }
+        const auto refine = [&](const Vec2& a, const Vec2& b, const Vec2& c) {
+            keep(climb([&f](double x) { return f(x); }, a, b, c, best.y, 0));
+        };
         for (std::size_t k = 1; k < kSamples; ++k)
             if (samples[k].y >= samples[k - 1].y && samples[k].y >= samples[k + 1].y)
-                keep(climb([&f](double x) { return f(x); }, samples[k - 1], samples[k], samples[k + 1], best.y, 0));
+                refine(samples[k - 1], samples[k], samples[k + 1]);
+        // The maximum may be nearer to an end than the last sample but one.
+        for (const auto& [end, inner] :
+             {std::pair{samples[0], samples[1]}, std::pair{samples[kSamples], samples[kSamples - 1]}}) {
+            Vec2 between = inner;
+            for (int k = 0; k < kHalvings && between.y < end.y; ++k) {
+                const double x = 0.5 * (between.x + end.x);
+                const Vec2 before = std::exchange(between, Vec2{x, f(x)});
+                if (between.y < end.y) continue;
+                if (end.x < before.x)
+                    refine(end, between, before);
+                else
+                    refine(before, between, end);
+            }
+        }
     }
     return best;
 }

@@ -74,9 +74,10 @@ const Interpolation& interpolation() {
 
 // Halves an interval until polynomials agree with the exact function.
 struct CamShape::Fit {
-    // Rounding of the profile's formulas leaves errors of this order; they are largest in ρ, which has h″.
-    static constexpr double kErrorOfHeight = 1e-15, kErrorOfRadius = 1e-14;  // of the size
-    static constexpr int kMostHalvings = 12;
+    // Above the rounding of the formulas, which is largest in ρ; a piece that agrees so far is mostly accurate to
+    // rounding.
+    static constexpr double kErrorOfHeight = 3e-15, kErrorOfRadius = 3e-14;  // of the size
+    static constexpr int kMostHalvings = 7;
 
     const ProfileSpan& span;
     double shift;  // α of the piece and α of the span differ by whole turns

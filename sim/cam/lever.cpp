@@ -1,5 +1,6 @@
 #include "sim/cam/lever.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -18,6 +19,8 @@ Lever::Lever(const Problem& p, CamShape shape)
     weight_ = mass * p.gravity * (a + 0.5 * length);
     const auto* torque = std::get_if<ConstantTorque>(&p.hub.drive);
     torque_ = torque ? torque->value : 0;
+    spring_ = p.hub.spring;
+    sense_ = p.cam->speed < 0 ? -1 : 1;
     is_driven_ = !is_independent_of_time(p.hub.drive);
 }
 
@@ -54,24 +57,47 @@ Lever::State Lever::at(double phi) const {
 // (S108)
 double Lever::pressure_angle(const State& state) const { return std::atan2(offset_, state.foot); }
 
-double Lever::pressing_moment(double theta) const { return weight_ * std::cos(theta) - torque_; }
+double Lever::pressing_moment(double theta) const {
+    const double spring = spring_ ? spring_->stiffness * (theta - spring_->free_angle) : 0;
+    return weight_ * std::cos(theta) + spring - torque_;
+}
 
-// (S107): N x_c = J ω² θ″ + M is smallest where −J θ″/M is largest.
+double Lever::turn_at_normal(double alpha) const {
+    const double phi = at_normal(alpha).phi;
+    return phi - kFullTurn * std::floor(phi / kFullTurn);
+}
+
+Lever::Summary Lever::summary() const {
+    const std::vector<double> ends = shape_.intervals();
+    const Vec2 sharpest = largest_over(ends, [&](double a) { return -shape_.at(a).radius; });
+    const Vec2 steepest = largest_over(ends, [&](double a) { return pressure_angle(at_normal(a)); });
+    return {shape_.least_height(),
+            shape_.least_radius(),
+            shape_.largest_radius(),
+            sharpest.x,
+            turn_at_normal(sharpest.x),
+            std::max(0.0, steepest.y),
+            jump()};
+}
+
+// (S107): Jθ″ω² + cθ′ω + M vanishes first where the larger root 1/ω of Jθ″ + cθ′/ω + M/ω² is largest.
 std::optional<Lever::Jump> Lever::jump() const {
     if (is_driven_) return std::nullopt;
     const std::vector<double> ends = shape_.intervals();
-    const auto turn = [this](double alpha) {
-        const double phi = at_normal(alpha).phi;
-        return phi - kFullTurn * std::floor(phi / kFullTurn);
-    };
     const Vec2 least = largest_over(ends, [&](double a) { return -pressing_moment(at_normal(a).motion.theta); });
-    if (!(least.y < 0)) return Jump{0, turn(least.x)};
+    if (!(least.y < 0)) return Jump{0, turn_at_normal(least.x)};
+    const double damping = spring_ ? sense_ * spring_->damping : 0;
     const Vec2 first = largest_over(ends, [&](double a) {
-        const State s = at_normal(a);
-        return -inertia_ * s.motion.acceleration / pressing_moment(s.motion.theta);
+        const LeverMotion m = at_normal(a).motion;
+        const double moment = pressing_moment(m.theta), half = 0.5 * damping * m.velocity / moment;
+        const double square = -inertia_ * m.acceleration / moment;  // of 1/ω without damping
+        if (damping == 0) return square;
+        const double root = half * half + square;
+        const double inverse = root < 0 ? root : std::sqrt(root) - half;
+        return inverse * std::fabs(inverse);
     });
     if (!(first.y > 0)) return std::nullopt;
-    return Jump{1 / std::sqrt(first.y), turn(first.x)};
+    return Jump{1 / std::sqrt(first.y), turn_at_normal(first.x)};
 }
 
 }  // namespace beamcam::sim

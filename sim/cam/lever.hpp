@@ -27,8 +27,8 @@ class Lever {
 
     // Between the normal of the contact and the velocity of the lever's point there; 0 without an offset [rad].
     double pressure_angle(const State& state) const;
-    // Moment about the pivot that presses the lever onto the cam, without inertia [N m]: of gravity and a constant
-    // torque.
+    // Moment about the pivot that presses the lever at rest onto the cam [N m]: of gravity, the hub's spring and a
+    // constant torque.
     double pressing_moment(double theta) const;
     double inertia() const { return inertia_; }  // about the pivot [kg m²]
 
@@ -41,11 +41,26 @@ class Lever {
 
     const CamShape& shape() const { return shape_; }
 
+    // The numbers by which a designer judges a cam. Angles are NaN where no lever reaches the cam.
+    struct Summary {
+        double base_radius = 0;                   // least distance of the outline from the axis [m]
+        double rho_min = 0, rho_max = 0;          // of the radius of curvature [m]
+        double rho_min_normal = 0;                // α of the first such place [rad]
+        double rho_min_phi = 0;                   // turn at which the lever touches it there, in [0, 2π) [rad]
+        double pressure_angle_max = 0;            // [rad]
+        std::optional<Jump> jump = std::nullopt;  // nothing: it does not jump, or no closed form applies
+    };
+    Summary summary() const;
+
   private:
+    double turn_at_normal(double alpha) const;  // φ in [0, 2π)
+
     CamShape shape_;
     double distance_, direction_, offset_;  // of C from the pivot [m], [rad]; d [m]
     double inertia_, weight_, torque_;      // [kg m²], moment of gravity at θ = 0 and torque of the drive [N m]
-    bool is_driven_;                        // by a torque or angle that depends on time
+    std::optional<HubSpring> spring_;
+    double sense_;    // of the cam's rotation: 1 where φ increases
+    bool is_driven_;  // by a torque or angle that depends on time
 };
 
 }  // namespace beamcam::sim

@@ -6,10 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <iterator>
+#include <optional>
 #include <vector>
 
 #include "sim/base/counted.hpp"
 #include "sim/beam/table_smoothing.hpp"
+#include "sim/cam/cam_shape.hpp"
+#include "sim/cam/check_profile.hpp"
 #include "sim/dynamics/constants.hpp"
 #include "sim/dynamics/initial.hpp"
 #include "sim/dynamics/system.hpp"
@@ -25,6 +29,7 @@ class Issues {
     void warning(std::string path, std::string message) {
         list.push_back({std::move(path), std::move(message), false});
     }
+    bool has_errors() const { return std::ranges::any_of(list, &Issue::fatal); }
     std::vector<Issue> list;
 };
 
@@ -137,6 +142,10 @@ void check_contact(Issues& out, const Problem& p) {
 
 void check_cam(Issues& out, const Problem& p) {
     const Cam& cam = *p.cam;
+    if (cam.profile) {
+        if (!out.has_errors()) std::ranges::move(check_profile(p), std::back_inserter(out.list));
+        return;
+    }
     if (cam.radius > 0 && !(cam.eccentricity < cam.radius))
         out.error(
             "cam.eccentricity",
@@ -175,14 +184,15 @@ StartGap gap_at_start(const Problem& p) {
     return {c.gap, c.x};
 }
 
-void check_geometry(Issues& out, const Problem& p) {
+void check_geometry(Issues& out, const Problem& p, const CamShape& shape) {
     const Cam& cam = *p.cam;
     const double d = contact_offset(p), away = norm(cam.centre), a = p.hub.radius;
-    const double nearest_axis = away - cam.eccentricity - cam.radius;
+    const double nearest_axis = away - shape.largest_reach();
     if (nearest_axis <= 0) {
-        out.error("cam.centre", fmt::format("the cam passes over the hub's axis: its centre is {:g} m away, "
-                                            "eccentricity and radius make {:g} m; move it away",
-                                            away, cam.eccentricity + cam.radius));
+        out.error("cam.centre",
+                  fmt::format("the cam passes over the hub's axis: its own axis is {:g} m away, its outline "
+                              "reaches {:g} m from there; move it away",
+                              away, shape.largest_reach()));
         return;
     }
     if (a > nearest_axis) {
@@ -259,7 +269,7 @@ struct Factor {
 // Reports a product outside [low, high] at its most extreme factor. Only the first: the others follow from it.
 void check_product(Issues& out, double low, double high, const char* what, double value, const char* unit,
                    std::initializer_list<Factor> factors) {
-    if (!out.list.empty() || (value >= low && value <= high)) return;
+    if (out.has_errors() || (value >= low && value <= high)) return;
     const auto decades = [](const Factor& f) { return f.value == 0 ? 0 : std::fabs(std::log10(std::fabs(f.value))); };
     const Factor& worst = *std::ranges::max_element(factors, {}, decades);
     out.error(worst.path,
@@ -313,17 +323,18 @@ void check_contact_scales(Issues& out, const Problem& p) {
                   {{path, p.contact.stiffness.value_or(k)}});
 }
 
-void check_products(Issues& out, const Problem& p) {
+void check_products(Issues& out, const Problem& p, const CamShape* shape) {
     check_beam_scales(out, p);
     check_contact_scales(out, p);
-    if (!out.list.empty()) return;
+    if (out.has_errors()) return;
     const double length = p.beam.length, reach = std::fabs(p.hub.radius) + length;
     check_size(out, "hub.radius", p.hub.radius, length, kMaxHubRadius, "positions along the beam");
     check_speed(out, "initial.angular_velocity", "the tip", p.initial.angular_velocity, reach);
     check_speed(out, "hub.drive.speed", "the tip", final_speed(p.hub.drive), reach);
-    if (!p.cam) return;
-    check_size(out, "cam.radius", p.cam->radius, length, kMaxCamSize, "the gap");
-    check_speed(out, "cam.speed", "the rim", p.cam->speed, p.cam->radius + p.cam->eccentricity);
+    if (!shape) return;
+    check_size(out, p.cam->profile ? "cam.profile" : "cam.radius", shape->largest_reach(), length, kMaxCamSize,
+               "the gap");
+    check_speed(out, "cam.speed", "the rim", p.cam->speed, shape->largest_reach());
 }
 
 }  // namespace
@@ -346,9 +357,11 @@ std::vector<Issue> validate(const Problem& problem) {
     }
     check_given_shapes(out, problem);
     check_given_contact(out, problem);
-    if (out.list.empty()) check_products(out, problem);
-    const bool sane = out.list.empty();
-    if (sane && problem.cam) check_geometry(out, problem);
+    std::optional<CamShape> shape;
+    if (problem.cam && !out.has_errors()) shape.emplace(problem);
+    if (!out.has_errors()) check_products(out, problem, shape ? &*shape : nullptr);
+    const bool sane = !out.has_errors();
+    if (sane && shape) check_geometry(out, problem, *shape);
     if (sane && problem.beam.model == ModelKind::paper)
         out.warning("beam.model",
                     "the paper's equation (4) does not conserve energy (its stiffening uses L cos θ); compare with "

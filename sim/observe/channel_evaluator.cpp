@@ -156,6 +156,10 @@ double ChannelEvaluator::value(Channel channel) {
             return norm(point_acceleration(model(), acceleration(), model().length()));
         case ChannelKind::drive_power:
             return drive_power();
+        case ChannelKind::theta_follow:
+            return followed_angle();
+        case ChannelKind::lift_error:
+            return model().hub_angle() - followed_angle();
         case ChannelKind::separation:
         case ChannelKind::separation_paper:
             return separation(channel.kind);
@@ -165,6 +169,12 @@ double ChannelEvaluator::value(Channel channel) {
 
 double ChannelEvaluator::spring_energy() {
     return system_.spring() ? system_.spring()->energy(model().hub_angle()) : 0;
+}
+
+// (S106)
+double ChannelEvaluator::followed_angle() {
+    if (!lever_) lever_.emplace(system_.problem(), system_.cam().shape());
+    return lever_->at(-system_.cam().angle(t_)).motion.theta;
 }
 
 // Across the tangent at the root, which is the hub's direction (S6).

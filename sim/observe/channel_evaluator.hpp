@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "sim/cam/lever.hpp"
 #include "sim/dynamics/system.hpp"
 #include "sim/observe/beam_loads.hpp"
 #include "sim/observe/channels.hpp"
@@ -45,6 +46,7 @@ class ChannelEvaluator {
     double rate_of_mode(int index) const;
     double tip(ChannelKind kind);
     double place_on_rim();
+    double followed_angle();  // of a straight lever
     double separation(ChannelKind kind);
     double resisted_force();
     const BeamLoads& resisted_loads();
@@ -63,6 +65,7 @@ class ChannelEvaluator {
     ContactState contact_;
     double acceleration_[kMaxSize] = {}, drive_power_ = 0;
     std::optional<BeamLoads> loads_, resisted_loads_;
+    std::optional<Lever> lever_;
     bool loads_known_ = false, largest_known_ = false;
     Vec2 largest_moment_;  // its place, and its magnitude
 };

@@ -1,5 +1,8 @@
 #include "sim/problem/keys.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace beamcam::sim {
 
 namespace dim = dimension;
@@ -148,13 +151,80 @@ static void visit(Visitor& v, Beam& beam) {
 
 // ---- cam -------------------------------------------------------------------------------------
 
+constexpr std::size_t kMostParts = 200;  // segments or arcs of a turn
+
+static void visit(Visitor& v, LawSegment& segment) {
+    v.choice("law", segment.law, "Law of the motion from rest to rest; dwell: the lever is at rest.");
+    v.number(written_if(segment.law != MotionLaw::dwell, "rise"), segment.rise, dim::kAngle, kAny,
+             "Change of the lever's angle over the segment, negative where the lever returns.");
+    v.number("over", segment.over, dim::kAngle, kPositive,
+             "Turn of the cam over the segment; by default, of the last segment only, the rest of the turn.");
+}
+
+static void visit(Visitor& v, LawProfile& profile) {
+    v.number(required("lowest", "\"14 deg\""), profile.lowest, dim::kAngle, kAny,
+             "Angle θ of the lever at the turn 0, where the cam's frame has the angle ψ = 0.");
+    v.list(required("segments", "[{\"law\": \"cycloidal\", \"rise\": \"8 deg\", \"over\": \"180 deg\"}, …]"),
+           objects(profile.segments, 1, kMostParts, "segments"),
+           "Motions that follow one another as the cam turns clockwise; their rises sum to 0.");
+}
+
+static void visit(Visitor& v, Arc& arc) {
+    v.numbers("centre", arc.centre, dim::kLength, "Centre [x, y] in the cam's frame, whose origin is the axis.");
+    v.number(required("radius", "\"30 mm\""), arc.radius, dim::kLength, kPositive, "Radius.");
+}
+
+static void visit(Visitor& v, ArcsProfile& profile) {
+    v.list(required("arcs", "[{\"centre\": [0.02, 0], \"radius\": 0.1}]"), objects(profile.arcs, 1, kMostParts, "arcs"),
+           "Arcs in counter-clockwise order, each tangent to the next from inside or from outside; one arc is a disc.");
+}
+
+static void visit(Visitor& v, PointsProfile& profile) {
+    v.file_of_columns();
+    v.numbers(required("x", "\"@cam.csv:x\""), profile.x, dim::kLength, kAny, {24},
+              "Coordinates x of the points in the cam's frame, in order, at least 24.");
+    v.numbers(required("y", "\"@cam.csv:y\""), profile.y, dim::kLength, kAny, {24}, "Coordinates y of the points.");
+}
+
+// Points in polar coordinates, which are read into Cartesian ones.
+static void visit_polar(Visitor& v, Profile& profile) {
+    std::vector<double> angle, radius;
+    v.file_of_columns();
+    v.numbers(required("angle", "\"@cam.csv:angle\""), angle, dim::kAngle, kAny, {24},
+              "Angles of the points in the cam's frame, in order, at least 24.");
+    v.numbers(required("radius", "\"@cam.csv:radius\""), radius, dim::kLength, kAny, {24},
+              "Distances of the points from the axis.");
+    PointsProfile points{radius, angle};
+    for (std::size_t i = 0; i < std::min(angle.size(), radius.size()); ++i) {
+        points.x[i] = radius[i] * std::cos(angle[i]);
+        points.y[i] = radius[i] * std::sin(angle[i]);
+    }
+    profile = std::move(points);
+}
+
+static void visit(Visitor& v, Profile& profile) {
+    v.alternatives({alternative<LawProfile>(profile, {{"type", "law"}},
+                                            "The outline by which a straight lever moves as the segments say."),
+                    alternative<ArcsProfile>(profile, {{"type", "arcs"}}, "Tangent arcs."),
+                    alternative<PointsProfile>(profile, {{"type", "points"}},
+                                               "A closed convex outline through points, joined by a smooth curve."),
+                    {{{"type", "points"}}, "The same by angle and radius.", false, [&profile](Visitor& inside) {
+                         visit_polar(inside, profile);
+                     }}});
+}
+
+// A profile replaces the numbers of the disc; writers leave those out.
 static void visit(Visitor& v, Cam& cam) {
     v.numbers("centre", cam.centre, dim::kLength, "C = [x, y], the fixed axis of rotation.");
-    v.number("radius", cam.radius, dim::kLength, kPositive, "Radius R of the disc.");
+    v.object(written_if(cam.profile.has_value(), "profile"), cam.profile,
+             "Outline of the cam, in place of \"radius\" and \"eccentricity\"; null: the eccentric disc.");
+    v.number(written_if(!cam.profile, "radius"), cam.radius, dim::kLength, kPositive, "Radius R of the disc.");
     constexpr Range kEccentricity{0, Range::kInfinity, false, false, nullptr, "; turn the phase by 180 deg instead"};
-    v.number("eccentricity", cam.eccentricity, dim::kLength, kEccentricity,
+    v.number(written_if(!cam.profile, "eccentricity"), cam.eccentricity, dim::kLength, kEccentricity,
              "Distance e of the disc's centre from C, less than R.");
-    v.number("phase", cam.phase, dim::kAngle, kAny, "Counter-clockwise angle of the disc's centre about C at t = 0.");
+    for (const char* number : {"radius", "eccentricity"}) v.exclusive("profile", number);
+    v.number("phase", cam.phase, dim::kAngle, kAny,
+             "Counter-clockwise angle of the cam about C at t = 0: of the disc's centre, or of the profile's frame.");
     v.number("speed", cam.speed, dim::kAngularSpeed, kAny, "Angular speed ω, positive clockwise.");
     v.choice("material", cam.material,
              "Material, for the Hertz stiffness, in place of \"youngs_modulus\" and \"poisson_ratio\".");

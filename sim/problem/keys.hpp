@@ -92,6 +92,16 @@ struct Length {
     bool or_one_number = false;  // a single number may replace the list
 };
 
+// A list of objects.
+struct Objects {
+    std::size_t size;
+    std::function<void(Visitor&, std::size_t index)> item;  // visits an object; adds one if index == size
+    std::size_t min_size, max_size;
+    const char* of;  // for messages: "segments"
+};
+template <class Struct>
+Objects objects(std::vector<Struct>& values, std::size_t min_size, std::size_t max_size, const char* of);
+
 class Visitor {
   public:
     virtual ~Visitor() = default;
@@ -109,6 +119,9 @@ class Visitor {
     // An object. With `present` the key may be null; `present` is then false.
     virtual void object(const Key& key, const std::function<void(Visitor&)>& fields, const char* meaning,
                         bool* present = nullptr) = 0;
+    virtual void list(const Key& key, const Objects& objects, const char* meaning) = 0;
+    // The lists of numbers that are visited after this may be columns of one file.
+    virtual void file_of_columns() {}
     // The object that is visited has one of these shapes. A tag that is left out follows from the other keys where only
     // one of its words has a shape with all of them; with `explicit_tags` it is required.
     virtual void alternatives(const std::vector<Alternative>& all, bool explicit_tags = false) = 0;
@@ -183,6 +196,15 @@ Alternative alternative(std::variant<Shapes...>& value, std::vector<std::pair<co
             }};
 }
 
+template <class Struct>
+Objects objects(std::vector<Struct>& values, std::size_t min_size, std::size_t max_size, const char* of) {
+    const auto item = [&values](Visitor& v, std::size_t index) {
+        if (index >= values.size()) values.emplace_back();
+        visit(v, values[index]);
+    };
+    return {values.size(), item, min_size, max_size, of};
+}
+
 void visit(Visitor& v, Problem& problem);
 
 // Reports each number of the problem outside the range of its key.
@@ -199,6 +221,14 @@ class NumberVisitor : public Visitor {
         const std::string outside = path_;
         path_ += std::string(key.name) + ".";
         fields(*this);
+        path_ = outside;
+    }
+    void list(const Key& key, const Objects& objects, const char*) final {
+        const std::string outside = path_;
+        for (std::size_t i = 0; i < objects.size; ++i) {
+            path_ = outside + key.name + "." + std::to_string(i) + ".";
+            objects.item(*this, i);
+        }
         path_ = outside;
     }
     void alternatives(const std::vector<Alternative>& all, bool) final {

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <numbers>
+
 #include "scenes/format/checks.hpp"
 #include "scenes/scene/film_times.hpp"
 #include "tests/scenes/support.hpp"
@@ -309,8 +311,7 @@ TEST(Reader, WholeNumbersOfRadiansBeyondATurnArePerhapsDegrees) {
 
 TEST(Reader, KeysForWhatIsNotModelledSaySo) {
     for (const auto& [scene, message] :
-         {std::pair{R"({"cam": {"profile": [1]}})", "unknown key \"profile\" in cam; the cam is an eccentric disc"},
-          {R"({"cam": {"liftTable": 1}})", "profiles and lift tables are not modelled"},
+         {std::pair{R"({"cam": {"liftTable": 1}})", "\"profile\" of the cam describes any convex outline"},
           {R"({"hub": {"return_spring": {}}})", "springs at the hub or at the beam are not modelled"},
           {R"({"hub": {"damping": 1}})", "damping and friction at the hub are not modelled"},
           {R"({"beam": {"tip-mass": 1}})", "a mass at the tip or at a point is not modelled"},
@@ -319,6 +320,55 @@ TEST(Reader, KeysForWhatIsNotModelledSaySo) {
           {R"({"beam": {"width": 0.01}})", "write \"section\": {\"type\": \"rectangle\""}})
         EXPECT_THAT(messages(read(scene)), ElementsAre(HasSubstr(message)));
     EXPECT_THAT(messages(read(R"({"beam": {"dampng_ratio": 1}})")), ElementsAre(HasSubstr("did you mean")));
+}
+
+TEST(Reader, AProfileReplacesTheNumbersOfTheDisc) {
+    const std::string arcs = R"({"cam": {"profile": {"arcs": [{"centre": ["20 mm", 0], "radius": "10 cm"}]})";
+    const Reading reading = read(arcs + "}}");
+    ASSERT_TRUE(reading.scene) << reading.report();
+    const auto& profile = std::get<sim::ArcsProfile>(*reading.scene->problem.cam->profile);
+    ASSERT_EQ(profile.arcs.size(), 1u);
+    EXPECT_EQ(profile.arcs[0].radius, 0.1);
+    EXPECT_EQ(profile.arcs[0].centre, (sim::Vec2{0.02, 0}));
+    for (const char* number : {"radius", "eccentricity"})
+        EXPECT_THAT(messages(read(arcs + fmt::format(R"(, "{}": 0.05}}}})", number))),
+                    Contains(AllOf(HasSubstr("\"profile\""), HasSubstr(fmt::format("\"{}\"", number)))));
+    EXPECT_TRUE(read(R"({"cam": {"profile": null}})").scene);
+    EXPECT_THAT(messages(read(R"({"cam": {"profile": {"type": "law", "lowest": "14 deg",
+        "segments": [{"law": "cycloidal", "rise": "8 deg"}]}}})")),
+                ElementsAre(AllOf(HasSubstr("2:52"), HasSubstr("write 0 deg here"))));
+}
+
+TEST(Reader, AnOutlineIsReadFromAFile) {
+    const testing::Folder folder;
+    std::string rows = "x [mm];y;phi;r\n", clockwise = rows;
+    for (int i = 0; i < 60; ++i) {
+        const double angle = 6.0 * i, a = angle * std::numbers::pi / 180;
+        rows += fmt::format("{};{};{};{}\n", 80 * std::cos(a), 0.08 * std::sin(a), angle, 8);
+    }
+    folder.write("cam.csv", rows);
+    const auto read_profile = [&](const std::string& keys) {
+        return read_scene({(folder / "scene.json").string(), R"({"cam": {"profile": {)" + keys + "}}}", true});
+    };
+    for (const char* keys :
+         {R"("file": "cam.csv", "x": "x", "y": "y")", R"("x": "@cam.csv:x", "y": "@cam.csv:y")",
+          R"("file": "cam.csv", "angle": "phi", "radius": "r", "units": {"phi": "deg", "r": "cm"})"}) {
+        const Reading reading = read_profile(keys);
+        ASSERT_TRUE(reading.scene) << reading.report();
+        const auto& points = std::get<sim::PointsProfile>(*reading.scene->problem.cam->profile);
+        ASSERT_EQ(points.x.size(), 60u);
+        EXPECT_NEAR(points.x[10], 0.04, 1e-15) << keys;
+        EXPECT_NEAR(points.y[10], 0.04 * std::sqrt(3.0), 1e-15) << keys;
+    }
+    const auto error = [&](const std::string& keys) { return messages(read_profile(keys)); };
+    EXPECT_THAT(error(R"("file": "none.csv", "x": "x", "y": "y")"), Contains(HasSubstr("none.csv")));
+    EXPECT_THAT(error(R"("file": "cam.csv", "x": "x", "y": "z")"), Contains(HasSubstr("no column \"z\"")));
+    EXPECT_THAT(error(R"("file": "cam.csv", "x": "x", "y": "y", "units": {"y": "kg"})"),
+                Contains(HasSubstr("\"kg\" is not a unit of the column \"y\", which is measured in m")));
+    folder.write("cam.csv", rows + "1;;2;3\n");
+    EXPECT_THAT(error(R"("file": "cam.csv", "x": "x", "y": "y")"), Contains(HasSubstr("line 62")));
+    folder.write("cam.csv", rows + "1;two;2;3\n");
+    EXPECT_THAT(error(R"("file": "cam.csv", "x": "x", "y": "y")"), Contains(HasSubstr("62")));
 }
 
 TEST(Reader, AnImpossibleFormatIsRejectedWithAPossibleOne) {

@@ -179,6 +179,7 @@ std::vector<SortedJson> alternatives(const SortedJson& value, const std::set<std
     }
     others.emplace_back("other " + text);
     if (text == "deg") others.emplace_back("rad");
+    if (text == "mm") others.emplace_back("cm");
     if (text == "theta_dot") others.emplace_back("theta");
     for (const auto& entry : fs::directory_iterator(folder)) others.emplace_back(entry.path().filename().string());
     return others;

@@ -192,6 +192,21 @@ TEST(CamShape, RoundedArcsAreClosed) {
     for (const double kink : shape.kinks()) EXPECT_NEAR(shape.at(kink - 1e-13).h, shape.at(kink + 1e-13).h, 1e-14);
 }
 
+TEST(CamShape, LengthIsThatOfTheOutline) {
+    const CamShape disc{Problem{}}, one(with_profile(ArcsProfile{{{{0.02, 0}, 0.1}}}));
+    for (double alpha = 0; alpha < kFullTurn; alpha += 0.7) EXPECT_NEAR(one.arc(alpha), disc.arc(alpha), 1e-14);
+    // The perimeter is the integral of h (Cauchy), and dp/dα = ρ t.
+    const CamShape shape(with_profile(lift_and_return()));
+    double perimeter = 0;
+    constexpr int kSteps = 20000;
+    for (int i = 0; i < kSteps; ++i) perimeter += shape.at(kFullTurn * i / kSteps).h * kFullTurn / kSteps;
+    EXPECT_NEAR(shape.arc(kFullTurn), perimeter, 1e-12);
+    EXPECT_EQ(shape.arc(0), 0);
+    for (double alpha = 0.05; alpha < 6; alpha += 0.31)
+        EXPECT_NEAR(scalar_slope_at_zero([&](double x) { return shape.arc(alpha + x); }, 1e-4), shape.at(alpha).radius,
+                    1e-8);
+}
+
 TEST(CamShape, AnglesRepeatAfterATurn) {
     const CamShape shape(with_profile(lift_and_return()));
     for (double alpha = 0; alpha < kFullTurn; alpha += 0.1) {

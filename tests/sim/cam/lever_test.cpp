@@ -85,6 +85,48 @@ TEST(Lever, JumpsAtThePublishedSpeed) {
     for (double phi = 0; phi < kFullTurn; phi += 0.003) EXPECT_GT(force(phi, jump->speed), -1e-9);
 }
 
+TEST(Lever, SummaryIsThatOfTheLaw) {
+    Problem p = lift_and_return_lever();
+    const Lever::Summary s = Lever(p).summary();
+    EXPECT_NEAR(s.base_radius, 0.25 * std::sin(14 * kDegree), 1e-15);
+    EXPECT_NEAR(s.rho_min, 0.03663479779, 5e-12);
+    EXPECT_NEAR(s.rho_min_phi, 136.82916 * kDegree, 1e-5);
+    EXPECT_NEAR(s.rho_max, 0.11911152977, 5e-12);
+    EXPECT_EQ(s.pressure_angle_max, 0);
+    EXPECT_NEAR(s.jump->speed, 6.900035815, 5e-10);
+    // With an offset the face is pushed where x_c is least.
+    p.contact.offset = 0.01;
+    const Lever lever(p);
+    double least = 1;
+    for (double phi = 0; phi < kFullTurn; phi += 1e-4) least = std::min(least, lever.at(phi).foot);
+    EXPECT_NEAR(lever.summary().pressure_angle_max, std::atan(0.01 / least), 1e-9);
+    EXPECT_NEAR(lever.summary().base_radius, 0.25 * std::sin(14 * kDegree) - 0.01, 1e-15);
+}
+
+TEST(Lever, ASpringHoldsItUntilAHigherSpeed) {
+    Problem p = lift_and_return_lever();
+    p.hub.spring = HubSpring{0.5, -60 * kDegree, 0};
+    EXPECT_NEAR(Lever(p).jump()->speed, 9.176477235, 5e-10);
+    // With damping, by the force itself: it is positive below the speed, and vanishes at it.
+    p.hub.spring->damping = 0.02;
+    for (const double sense : {1.0, -1.0}) {
+        p.cam->speed = sense;
+        const Lever lever(p);
+        const auto least = [&](double speed) {
+            double force = 1e9;
+            for (double phi = 0; phi < kFullTurn; phi += 1e-3) {
+                const LeverMotion m = lever.at(phi).motion;
+                force = std::min(force, lever.inertia() * speed * speed * m.acceleration +
+                                            sense * 0.02 * speed * m.velocity + lever.pressing_moment(m.theta));
+            }
+            return force;
+        };
+        const double speed = lever.jump()->speed;
+        EXPECT_NEAR(least(speed), 0, 1e-6);
+        EXPECT_GT(least(0.99 * speed), 1e-3);
+    }
+}
+
 TEST(Lever, JumpsAtOnceWhereNothingPresses) {
     Problem p = lift_and_return_lever();
     p.hub.drive = ConstantTorque{3};

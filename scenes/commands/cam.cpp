@@ -1,0 +1,110 @@
+// `beamcam cam`: the outline of the cam and the straight lever that follows it.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "output/data/records.hpp"
+#include "output/files/atomic_file.hpp"
+#include "scenes/commands/result_files.hpp"
+#include "scenes/figures/cam_drawing.hpp"
+#include "scenes/figures/figure_files.hpp"
+#include "scenes/scene/files.hpp"
+#include "sim/cam/lever.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+struct CamArguments {
+    Common common;
+    std::string scene;
+    std::vector<std::string> files;
+};
+
+double in_degrees(double angle) { return angle * 180 / std::numbers::pi; }
+
+std::string summary_text(const sim::Lever::Summary& s) {
+    std::string text = fmt::format("base radius                  {:.9g} m\n", s.base_radius);
+    text += fmt::format("least radius of curvature    {:.9g} m", s.rho_min);
+    if (std::isfinite(s.rho_min_phi)) text += fmt::format(" at the turn {:.6g} deg", in_degrees(s.rho_min_phi));
+    text += fmt::format("\nlargest radius of curvature  {:.9g} m\n", s.rho_max);
+    text += fmt::format("largest pressure angle       {:.6g} deg\n", in_degrees(s.pressure_angle_max));
+    text += s.jump
+                ? fmt::format(
+                      "jump speed                   {:.10g} rad/s ({:.6g} rpm) at the turn {:.6g} deg, of a "
+                      "straight rigid lever\n",
+                      s.jump->speed, s.jump->speed * 30 / std::numbers::pi, in_degrees(s.jump->phi))
+                : "jump speed                   none: a straight rigid lever stays on the cam, or the drive depends on "
+                  "time\n";
+    return text;
+}
+
+// Points of the outline at equal steps of the normal; `points` of a profile read them back.
+output::ColumnTable outline_table(const sim::Lever& lever) {
+    constexpr int kPoints = 1800;  // a fifth of a degree
+    output::ColumnTable table;
+    for (const auto& [name, unit, meaning] :
+         {std::tuple{"alpha", "rad", "Angle of the outward normal in the cam's frame."},
+          {"phi", "rad", "Turn of the cam at which a straight lever touches it there."},
+          {"x", "m", "Point of the outline in the cam's frame."},
+          {"y", "m", "Point of the outline in the cam's frame."},
+          {"arc_length", "m", "Length of the outline from the first point."},
+          {"curvature", "1/m", "Reciprocal of the radius of curvature."}})
+        table.columns.push_back({.name = name, .unit = unit, .meaning = meaning});
+    for (int i = 0; i < kPoints; ++i) {
+        const double alpha = sim::kFullTurn * i / kPoints;
+        const sim::Lever::State state = lever.at_normal(alpha);
+        const sim::Vec2 p = state.point.position(alpha);
+        const double phi = state.phi - sim::kFullTurn * std::floor(state.phi / sim::kFullTurn);
+        const double row[] = {alpha, phi, p.x, p.y, lever.shape().arc(alpha), 1 / state.point.radius};
+        for (std::size_t k = 0; k < table.columns.size(); ++k) table.columns[k].values.push_back(row[k]);
+    }
+    return table;
+}
+
+void write_outline(const std::string& file, const Scene& scene, const sim::Lever& lever, output::FileList& file_list) {
+    if (is_table(file)) return output::write_table(file_list.target(file), outline_table(lever));
+    Scene alone = scene;
+    alone.outputs.clear();
+    const std::string text = to_json(alone);
+    const auto medium = file.ends_with(".pdf") ? render::figure::Medium::pdf : render::figure::Medium::svg;
+    const std::string title =
+        scene.title.empty() ? "Outline of the cam at 1:1" : scene.title + ": outline of the cam at 1:1";
+    output::write_file(target_of(file, scene, file_list),
+                       cam_drawing(scene.problem, lever, medium, document_of(title, "", text)));
+}
+
+int act(const CamArguments& args) {
+    const Scene scene = load_scene(args.scene, args.common);
+    if (!scene.problem.cam) throw SceneError(fmt::format("{}: the scene has no cam; give it one\n", args.scene));
+    output::FileList file_list(args.common.force);
+    require_writable("-o", args.files, {".csv", ".npz", ".svg", ".pdf"}, file_list);
+    const sim::Lever lever(scene.problem);
+    const sim::Lever::Summary summary = lever.summary();
+    print_result(args.common, output::cam_json(summary), summary_text(summary));
+    return for_each_file(args.files, [&](const std::string& file) {
+        write_outline(file, scene, lever, file_list);
+        inform(args.common, "wrote " + file);
+    });
+}
+
+}  // namespace
+
+void add_cam(Grammar& grammar) {
+    const auto [app, args] = grammar.command<CamArguments>(
+        "cam", "Print base circle, curvature, pressure angle and jump speed of the cam; write its outline", act);
+    app.examples = {"cam valve-lever.json", "cam valve-lever.json --json -o cam.csv -o cam.pdf"};
+    app.footer =
+        "The jump speed is that of a straight rigid lever with the beam's inertia, pressed by gravity, the hub's "
+        "spring "
+        "and a constant torque. In JSON lengths are in m, angles in rad, speeds in rad/s; without a jump its values "
+        "are null.";
+    add_scene(app, args.scene, args.common);
+    app.option(
+        "-o,--output", &args.files, "FILE",
+        "Write the outline, too: its points as .csv or .npz, or the drawing at 1:1 as .svg or .pdf (repeatable)");
+    add_json(app, args.common);
+    add_force(app, args.common);
+}
+
+}  // namespace beamcam::scenes

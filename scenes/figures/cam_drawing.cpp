@@ -1,0 +1,154 @@
+#include "scenes/figures/cam_drawing.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <vector>
+
+#include "render/draw/text_style.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using render::figure::points, render::figure::PageCanvas;
+using sim::Vec2;
+
+// Sizes on paper.
+constexpr double kMargin = points(12), kLetters = points(3.0), kOutline = points(0.5), kThin = points(0.2);  // [pt]
+constexpr double kPointsPerMetre = points(1000);
+constexpr render::Color kBlack = render::rgb(0x000000), kGrey = render::rgb(0x777777), kFill = render::rgb(0xE6E8EC);
+const render::Pen kCentreLine{kGrey, kThin, {8 * kThin, 3 * kThin, kThin, 3 * kThin}, render::Cap::butt};
+
+std::string millimetres(double metres) { return fmt::format("{:.5g}", 1e3 * metres); }
+
+class CamDrawing {
+  public:
+    CamDrawing(const sim::Problem& problem, const sim::Lever& lever) : lever_(lever), shape_(lever.shape()) {
+        constexpr int kCorners = 1440;  // a quarter of a degree: chords deviate by 2.4e-6 of the radius of curvature
+        for (int i = 0; i < kCorners; ++i) {
+            const double alpha = sim::kFullTurn * i / kCorners;
+            outline_.push_back(shape_.at(alpha).position(alpha));
+        }
+        pivot_ = -problem.cam->centre;  // where the cam's frame is not turned
+        for (const Vec2 p : outline_) bounds_.add(p);
+        bounds_.add(pivot_, 6 * kLetters / kPointsPerMetre / 4);
+        base_ = shape_.least_height();
+    }
+
+    render::figure::Paper paper() const {
+        const render::Box box = bounds_.box();
+        constexpr double kDimensions = 5 * kLetters;  // below the drawing
+        return {box.w * kPointsPerMetre + 2 * kMargin, box.h * kPointsPerMetre + 2 * kMargin + kDimensions};
+    }
+
+    void draw(PageCanvas& to) {
+        camera_ = {kPointsPerMetre, {kMargin - bounds_.x0 * kPointsPerMetre, kMargin + bounds_.y1 * kPointsPerMetre}};
+        to_ = &to;
+        draw_outline();
+        draw_axis();
+        draw_base_circle();
+        draw_sharpest_place();
+        draw_pivot();
+    }
+
+  private:
+    Vec2 at(Vec2 p) const { return camera_.to_pixels(p); }
+    void label(Vec2 where, const std::string& text, render::HAlign align = render::HAlign::centre) {
+        to_->text(where, text, {.size = kLetters, .color = kBlack, .align = align, .valign = render::VAlign::middle});
+    }
+    void arrow(Vec2 from, Vec2 to) {
+        to_->arrow(from, to, {kBlack, kThin, {}, render::Cap::butt},
+                   {.length = kLetters, .half_width = 0.2, .back = 1});
+    }
+    void line(Vec2 from, Vec2 to, const render::Pen& pen) { to_->line(from, to, pen); }
+
+    void draw_outline() {
+        std::vector<Vec2> corners;
+        for (const Vec2 p : outline_) corners.push_back(at(p));
+        to_->polyline(corners);
+        to_->close();
+        to_->fill_keeping_path(kFill);
+        to_->stroke({kBlack, kOutline});
+        constexpr double kTick = points(1.5);
+        for (const double kink : shape_.kinks()) {
+            const Vec2 p = at(shape_.at(kink).position(kink)), n{std::cos(kink), -std::sin(kink)};
+            line(p - kTick * n, p + kTick * n, {kBlack, kThin});
+        }
+    }
+
+    void draw_axis() {
+        const double half = shape_.largest_reach() * kPointsPerMetre + points(4);
+        const Vec2 c = at({0, 0});
+        line(c - Vec2{half, 0}, c + Vec2{half, 0}, kCentreLine);
+        line(c - Vec2{0, half}, c + Vec2{0, half}, kCentreLine);
+    }
+
+    void draw_base_circle() {
+        const Vec2 c = at({0, 0});
+        const double radius = base_ * kPointsPerMetre;
+        to_->circle(c, radius);
+        to_->stroke({kGrey, kThin, {4 * kThin, 3 * kThin}, render::Cap::butt});
+        const Vec2 along{std::cos(0.6), -std::sin(0.6)};
+        arrow(c, c + radius * along);
+        arrow(c, c - radius * along);
+        label(c + 0.5 * radius * along + Vec2{0, -0.9 * kLetters}, "Ø " + millimetres(2 * base_));
+    }
+
+    void draw_sharpest_place() {
+        const double alpha = lever_.summary().rho_min_normal;
+        const sim::CamPoint p = shape_.at(alpha);
+        const Vec2 n = sim::unit(alpha), touched = p.position(alpha), centre = touched - p.radius * n;
+        arrow(at(centre), at(touched));
+        to_->circle(at(centre), points(0.4));
+        to_->fill(kBlack);
+        const Vec2 beside{0.9 * kLetters * std::abs(n.y) + 0.2 * kLetters, -0.9 * kLetters * std::abs(n.x)};
+        label(at(centre + 0.55 * p.radius * n) + beside, "R " + millimetres(p.radius), render::HAlign::left);
+    }
+    void draw_pivot() {
+        const Vec2 c = at({0, 0}), o = at(pivot_);
+        line(c, o, kCentreLine);
+        to_->circle(o, points(1.5));
+        to_->fill_keeping_path(render::rgb(0xFFFFFF));
+        to_->stroke({kBlack, kOutline});
+        label(o + Vec2{0, -1.4 * kLetters}, "O");
+        // The distance, below everything, along the line to the pivot where that is level.
+        const double low = at({0, bounds_.y0}).y + 3 * kLetters;
+        if (std::abs(o.x - c.x) > 4 * kLetters && std::abs(o.y - c.y) < 0.01 * kLetters) {
+            const render::Pen thin{kBlack, kThin, {}, render::Cap::butt};
+            line({c.x, c.y}, {c.x, low + kLetters}, thin);
+            line({o.x, o.y + points(2)}, {o.x, low + kLetters}, thin);
+            const Vec2 middle{0.5 * (o.x + c.x), low};
+            arrow(middle, {o.x, low});
+            arrow(middle, {c.x, low});
+            label(middle + Vec2{0, -0.9 * kLetters}, millimetres(norm(pivot_)));
+        } else {
+            label(0.5 * (o + c) + Vec2{0.5 * kLetters, -0.9 * kLetters}, millimetres(norm(pivot_)));
+        }
+        label(
+            {kMargin, low + 1.6 * kLetters},
+            fmt::format("1:1, mm; ρ {} … {}", millimetres(shape_.least_radius()), millimetres(shape_.largest_radius())),
+            render::HAlign::left);
+    }
+
+    const sim::Lever& lever_;
+    const sim::CamShape& shape_;
+    std::vector<Vec2> outline_;
+    Vec2 pivot_;
+    double base_ = 0;  // radius of the base circle [m]
+    render::Bounds bounds_;
+    render::Camera camera_;
+    PageCanvas* to_ = nullptr;
+};
+
+}  // namespace
+
+std::string cam_drawing(const sim::Problem& problem, const sim::Lever& lever, render::figure::Medium medium,
+                        const render::figure::Document& document) {
+    CamDrawing drawing(problem, lever);
+    const render::Fonts fonts(false, render::Typefaces::print);
+    PageCanvas page(medium, drawing.paper(), fonts, document);
+    drawing.draw(page);
+    return page.bytes();
+}
+
+}  // namespace beamcam::scenes

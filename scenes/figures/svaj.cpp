@@ -1,0 +1,114 @@
+// Displacement, velocity, acceleration and jerk of the straight lever that follows the cam, over a turn of the cam;
+// over the first two those of the beam's hub in the last turn of the scene. MODEL.md (S106).
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scenes/figures/axis_labels.hpp"
+#include "scenes/figures/figure_types.hpp"
+#include "sim/cam/lever.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr int kTurnRows = 2001;  // of the beam's motion
+
+// States over a turn from φ = 0. Where a derivative jumps there are two at the same turn.
+std::vector<sim::Lever::State> turn_of(const sim::Lever& lever) {
+    constexpr int kSamples = 24;       // between the ends of smooth intervals
+    constexpr double kInside = 1e-12;  // of an interval: its last sample does not belong to the next one
+    const double start = lever.at(0).alpha;
+    std::vector<double> ends{start, start + sim::kFullTurn};
+    for (const double end : lever.shape().intervals()) {
+        const double later = end + sim::kFullTurn * std::ceil((start - end) / sim::kFullTurn);
+        if (later > start && later < ends[1]) ends.push_back(later);
+    }
+    std::ranges::sort(ends);
+    std::vector<sim::Lever::State> states;
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i)
+        for (int k = 0; k <= kSamples; ++k)
+            states.push_back(lever.at_normal(ends[i] + (ends[i + 1] - ends[i]) * (1 - kInside) * k / kSamples));
+    return states;
+}
+
+// The beam's curves over the turn from 0° to 360°; a break where it ends.
+void add_beam(const sim::Problem& problem, const sim::Table& table, double angle_factor, Lang lang, Panel& angle,
+              Panel& velocity) {
+    Series theta{.label = phrase(lang, "beam"), .look = 1, .weight = 0.8}, rate = theta;
+    const auto &psi = column(table, ChannelKind::cam_angle), &at = column(table, ChannelKind::theta),
+               &speed = column(table, ChannelKind::theta_dot);
+    double turns = 0;
+    for (std::size_t i = 0; i < psi.size(); ++i) {
+        const double now = std::floor(-psi[i] / sim::kFullTurn), phi = (-psi[i] - sim::kFullTurn * now) * kDegrees;
+        if (i > 0 && now != turns)
+            for (Series* each : {&theta, &rate}) each->add(phi, std::nan(""));
+        turns = now;
+        theta.add(phi, at[i] * angle_factor);
+        rate.add(phi, speed[i] / problem.cam->speed);
+    }
+    angle.series.push_back(std::move(theta));
+    velocity.series.push_back(std::move(rate));
+}
+
+Figure svaj_figure(const Subject& subject, const sim::Result* result, std::size_t table) {
+    const auto& [problem, units, lang, end] = subject;
+    const Measure angle = measure_in(units, "rad");
+    const std::pair<std::string, double sim::LeverMotion::*> quantities[] = {
+        {axis_label("$θ$", angle.unit), &sim::LeverMotion::theta},
+        {"d$θ$/d$φ$", &sim::LeverMotion::velocity},
+        {"d^{2}$θ$/d$φ$^{2}", &sim::LeverMotion::acceleration},
+        {"d^{3}$θ$/d$φ$^{3}", &sim::LeverMotion::jerk}};
+    const char* names[] = {"displacement", "velocity", "acceleration", "jerk"};
+    std::vector<Panel> panels;
+    const std::vector<sim::Lever::State> states = turn_of(sim::Lever(problem));
+    for (const auto& [label, quantity] : quantities) {
+        Series curve{.label = phrase(lang, "straight lever"), .name = names[panels.size()]};
+        const double factor = panels.empty() ? angle.factor : 1;
+        for (const sim::Lever::State& s : states) curve.add(s.phi * kDegrees, s.motion.*quantity * factor);
+        panels.push_back({.x = {.label = "$φ$ / °", .from = 0, .to = 360, .tight = true},
+                          .y = {.label = label},
+                          .series = {std::move(curve)},
+                          .legend = result && panels.empty() ? Legend::above : Legend::none,
+                          .name = names[panels.size()]});
+        if (panels.size() > 1) panels.back().rules = {{.at = 0}};
+    }
+    if (result) add_beam(problem, result->tables[table], angle.factor, lang, panels[0], panels[1]);
+    Figure figure{.panels = lettered(std::move(panels)), .stack = true, .share_x = true, .aspect = 1.7};
+    if (result)
+        add_caption(figure, {{&problem, result}});
+    else
+        add_caption(figure, std::vector{problem});
+    return figure;
+}
+
+FigureDrawing prepare_svaj(const Scene& scene, const FigureOutput&, MotionRequests& requests) {
+    const sim::Problem& problem = scene.problem;
+    if (problem.cam->speed == 0)
+        return [](const Subject& subject, const MotionResults&) { return svaj_figure(subject, nullptr, 0); };
+    const std::size_t motion = requests.motion(problem, scene.end_time);
+    const double from = std::max(0.0, scene.end_time - cam_period(problem));
+    const std::size_t table =
+        requests.curve(motion, {from, scene.end_time, kTurnRows}, {}, sim::Channel{ChannelKind::theta},
+                       {sim::Channel{ChannelKind::theta_dot}, sim::Channel{ChannelKind::cam_angle}});
+    return [motion, table](const Subject& subject, const MotionResults& results) {
+        return svaj_figure(subject, results[motion], table);
+    };
+}
+
+std::optional<std::string> needs_lever(const Scene& scene) {
+    if (auto why = needs_cam(scene)) return why;
+    if (std::isfinite(sim::Lever(scene.problem).summary().rho_min_phi)) return std::nullopt;
+    return "no straight lever from the hub's axis can follow a cam so near to it; move the cam away or reduce "
+           "contact.offset";
+}
+
+}  // namespace
+
+extern const FigureType kSvaj{
+    "svaj",
+    "The straight lever's angle on the cam and its derivatives by the turn of the cam; the hub "
+    "of the beam in the last turn",
+    needs_lever, prepare_svaj};
+
+}  // namespace beamcam::scenes
