@@ -212,7 +212,7 @@ DescribedObject described(std::string meaning, const std::function<void(SceneVis
 
 const DescribedObject& scene_format() {
     static const DescribedObject kFormat = described(
-        "A flexible beam on a hub that falls on a rotating eccentric cam, and the files to write. Plain numbers are in "
+        "A flexible beam on a hub that falls on a rotating cam, and the files to write. Plain numbers are in "
         "SI units; a text may have a unit. Every key has a default: {} is a complete scene. Keys that begin with x- "
         "are ignored.",
         [](SceneVisitor& v) {

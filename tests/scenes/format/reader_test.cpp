@@ -336,7 +336,7 @@ TEST(Reader, AProfileReplacesTheNumbersOfTheDisc) {
     EXPECT_TRUE(read(R"({"cam": {"profile": null}})").scene);
     EXPECT_THAT(messages(read(R"({"cam": {"profile": {"type": "law", "lowest": "14 deg",
         "segments": [{"law": "cycloidal", "rise": "8 deg"}]}}})")),
-                ElementsAre(AllOf(HasSubstr("2:52"), HasSubstr("write 0 deg here"))));
+                ElementsAre(AllOf(HasSubstr("2:51"), HasSubstr("write 0 deg here"))));
 }
 
 TEST(Reader, AnOutlineIsReadFromAFile) {
@@ -351,7 +351,7 @@ TEST(Reader, AnOutlineIsReadFromAFile) {
         return read_scene({(folder / "scene.json").string(), R"({"cam": {"profile": {)" + keys + "}}}", true});
     };
     for (const char* keys :
-         {R"("file": "cam.csv", "x": "x", "y": "y")", R"("x": "@cam.csv:x", "y": "@cam.csv:y")",
+         {R"("file": "cam.csv", "x": "x [mm]", "y": "y")", R"("x": "@cam.csv:x [mm]", "y": "@cam.csv:y")",
           R"("file": "cam.csv", "angle": "phi", "radius": "r", "units": {"phi": "deg", "r": "cm"})"}) {
         const Reading reading = read_profile(keys);
         ASSERT_TRUE(reading.scene) << reading.report();
@@ -361,14 +361,14 @@ TEST(Reader, AnOutlineIsReadFromAFile) {
         EXPECT_NEAR(points.y[10], 0.04 * std::sqrt(3.0), 1e-15) << keys;
     }
     const auto error = [&](const std::string& keys) { return messages(read_profile(keys)); };
-    EXPECT_THAT(error(R"("file": "none.csv", "x": "x", "y": "y")"), Contains(HasSubstr("none.csv")));
+    EXPECT_THAT(error(R"("file": "none.csv", "x": "x [mm]", "y": "y")"), Contains(HasSubstr("none.csv")));
     EXPECT_THAT(error(R"("file": "cam.csv", "x": "x", "y": "z")"), Contains(HasSubstr("no column \"z\"")));
-    EXPECT_THAT(error(R"("file": "cam.csv", "x": "x", "y": "y", "units": {"y": "kg"})"),
+    EXPECT_THAT(error(R"("file": "cam.csv", "x": "x [mm]", "y": "y", "units": {"y": "kg"})"),
                 Contains(HasSubstr("\"kg\" is not a unit of the column \"y\", which is measured in m")));
     folder.write("cam.csv", rows + "1;;2;3\n");
-    EXPECT_THAT(error(R"("file": "cam.csv", "x": "x", "y": "y")"), Contains(HasSubstr("line 62")));
+    EXPECT_THAT(error(R"("file": "cam.csv", "x": "x [mm]", "y": "y")"), Contains(HasSubstr("line 62")));
     folder.write("cam.csv", rows + "1;two;2;3\n");
-    EXPECT_THAT(error(R"("file": "cam.csv", "x": "x", "y": "y")"), Contains(HasSubstr("62")));
+    EXPECT_THAT(error(R"("file": "cam.csv", "x": "x [mm]", "y": "y")"), Contains(HasSubstr("62")));
 }
 
 TEST(Reader, AnImpossibleFormatIsRejectedWithAPossibleOne) {

@@ -164,6 +164,12 @@ std::vector<SortedJson> alternatives(const SortedJson& value, const std::set<std
     if (value.is_number())
         for (const double other : {value.get<double>() * 1.015625, value.get<double>() * 0.984375, 1e-3})
             others.emplace_back(other);
+    if (value.is_object()) {
+        SortedJson larger = value;  // all lengths in another unit: an outline in two would be no outline
+        for (auto& inner : larger)
+            if (inner == "mm") inner = "cm";
+        others.push_back(larger);
+    }
     if (value.is_object())
         for (const auto& [key, inner] : value.items())
             for (const SortedJson& other : alternatives(inner, {}, folder)) {
@@ -179,7 +185,6 @@ std::vector<SortedJson> alternatives(const SortedJson& value, const std::set<std
     }
     others.emplace_back("other " + text);
     if (text == "deg") others.emplace_back("rad");
-    if (text == "mm") others.emplace_back("cm");
     if (text == "theta_dot") others.emplace_back("theta");
     for (const auto& entry : fs::directory_iterator(folder)) others.emplace_back(entry.path().filename().string());
     return others;
