@@ -41,6 +41,8 @@ void Saltation::pass(double t, const double* before, const Phase& was, const dou
         release(tangents);
     else if (was.friction != is.friction)
         change_friction(at, tangents);
+    else if (was.held && is.held && n_ > 1)
+        require_curvature(at);
     if (!is.touching && (jumps || was.touching)) left_ = t;
 }
 
@@ -55,6 +57,19 @@ Eigen::VectorXd Saltation::flow_after(const Instant& at) {
     probe_.set_phase(at.is);
     probe_.rhs(at.t, at.after, flow.data());
     return flow;
+}
+
+// Where ρ jumps, so does the force of sustained contact, and the tangents with it by what neighbours arrive later.
+void Saltation::require_curvature(const Instant& at) {
+    constexpr double kSide = 1e-6, kJump = 1e-4;  // [rad]; of ρ, far more than it changes in between
+    probe_.set_phase(at.is);
+    near_ = probe_.contact(at.t, at.after);
+    const double alpha = std::atan2(near_.normal.y, near_.normal.x) - probe_.cam().angle(at.t);
+    const CamShape& cam = probe_.cam().shape();
+    if (std::fabs(cam.at(alpha + kSide).radius - cam.at(alpha - kSide).radius) > kJump * near_.disc.radius)
+        throw StepFailure(
+            "tangents are not known where sustained contact passes a jump of the cam's radius of curvature: use "
+            "compliant contact, or a profile whose curvature does not jump");
 }
 
 // At the contact near_, in the state before the touch. Beyond an end of the beam the foot is on its straight extension.

@@ -47,6 +47,7 @@ class Saltation {
     JetState jets_before(const Instant& at, const Eigen::MatrixXd& tangents, Eigen::Index first);
     Eigen::VectorXd flow_after(const Instant& at);
     void record_touch(const Instant& at);
+    void require_curvature(const Instant& at);
 
     System probe_;  // a separate copy, so that evaluations at events do not affect the motion
     ModalJets& jets_;

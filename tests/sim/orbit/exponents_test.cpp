@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "tests/sim/cam/profiles.hpp"
 #include "tests/sim/orbit/pressed_beam.hpp"
 #include "tests/sim/support.hpp"
 
@@ -22,6 +23,30 @@ TEST(Exponents_, PeriodicMotionHasTheExponentsOfItsMultipliers) {
     EXPECT_FALSE(e.chaotic());
     const double impacts_per_second = 45 / (2 * std::numbers::pi);
     EXPECT_NEAR(sum(e), 2 * impacts_per_second * std::log(0.5), 0.05);  // one impact more or less in 50 s
+}
+
+// An impact multiplies volumes by r², the damper of the hub by e^(−c/J) a second, whatever the outline.
+TEST(Exponents_, SumOfARigidBeamOnAProfileIsThatOfImpactsAndDamper) {
+    const LawProfile law{14 * kDegree,
+                         {{MotionLaw::cycloidal, 3 * kDegree, {}}, {MotionLaw::cycloidal, -3 * kDegree, {}}}};
+    LawProfile halves = law;
+    halves.segments.front().over = std::numbers::pi;
+    const PointsProfile oval = points_of(
+        360, [](double alpha) { return std::pair(0.08 + 0.004 * std::cos(2 * alpha), -0.008 * std::sin(2 * alpha)); });
+    for (const Profile& profile : {Profile(halves), Profile(oval)}) {
+        Problem p = PressedBeam().problem(120);
+        p.cam->profile = profile;
+        p.cam->centre = {0.25, 0};
+        p.contact.restitution = 0.9;
+        p.hub.spring = {2, -0.5, 0.01};
+        p.initial.angle = 0.7;
+        p.solver.method = Method::automatic;
+        const Exponents e = lyapunov_exponents(p, {0, 0, 20, 10});
+        const double inertia = p.beam.line_density() * std::pow(p.beam.length, 3) / 3;
+        ASSERT_GT(e.impacts, 20);
+        ASSERT_TRUE(std::isfinite(sum(e)));
+        EXPECT_NEAR(sum(e), 2 * std::log(0.9) * static_cast<double>(e.impacts) / 20 - 0.01 / inertia, 1e-6);
+    }
 }
 
 // Differences from an upright rod grow by √(3 g/2 L), but it stands still.
