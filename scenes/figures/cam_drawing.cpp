@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "render/draw/text_style.hpp"
@@ -33,6 +34,8 @@ class CamDrawing {
         for (const Vec2 p : outline_) bounds_.add(p);
         bounds_.add(pivot_, 6 * kLetters / kPointsPerMetre / 4);
         base_ = shape_.least_height();
+        const double speed = problem.cam->speed;
+        if (speed != 0) rotation_ = speed > 0 ? "; turns clockwise" : "; turns counter-clockwise";
     }
 
     render::figure::Paper paper() const {
@@ -77,10 +80,12 @@ class CamDrawing {
     }
 
     void draw_axis() {
-        const double half = shape_.largest_reach() * kPointsPerMetre + points(4);
-        const Vec2 c = at({0, 0});
-        line(c - Vec2{half, 0}, c + Vec2{half, 0}, kCentreLine);
-        line(c - Vec2{0, half}, c + Vec2{0, half}, kCentreLine);
+        constexpr double kBeyond = 4e-3;  // the outline [m]
+        const double right = shape_.at(0).h + kBeyond, left = shape_.at(std::numbers::pi).h + kBeyond;
+        const double up = shape_.at(0.5 * std::numbers::pi).h + kBeyond;
+        const double down = shape_.at(1.5 * std::numbers::pi).h + kBeyond;
+        line(at({-left, 0}), at({right, 0}), kCentreLine);
+        line(at({0, -down}), at({0, up}), kCentreLine);
     }
 
     void draw_base_circle() {
@@ -91,7 +96,8 @@ class CamDrawing {
         const Vec2 along{std::cos(0.6), -std::sin(0.6)};
         arrow(c, c + radius * along);
         arrow(c, c - radius * along);
-        label(c + 0.5 * radius * along + Vec2{0, -0.9 * kLetters}, "Ø " + millimetres(2 * base_));
+        const Vec2 across{along.y, -along.x};  // to the upper left, on paper
+        label(c - 0.4 * radius * along + 1.1 * kLetters * across, "Ø " + millimetres(2 * base_), render::HAlign::right);
     }
 
     void draw_sharpest_place() {
@@ -124,10 +130,10 @@ class CamDrawing {
         } else {
             label(0.5 * (o + c) + Vec2{0.5 * kLetters, -0.9 * kLetters}, millimetres(norm(pivot_)));
         }
-        label(
-            {kMargin, low + 1.6 * kLetters},
-            fmt::format("1:1, mm; ρ {} … {}", millimetres(shape_.least_radius()), millimetres(shape_.largest_radius())),
-            render::HAlign::left);
+        label({kMargin, low + 1.6 * kLetters},
+              fmt::format("1:1, mm; ρ {} … {}{}", millimetres(shape_.least_radius()),
+                          millimetres(shape_.largest_radius()), rotation_),
+              render::HAlign::left);
     }
 
     const sim::Lever& lever_;
@@ -135,6 +141,7 @@ class CamDrawing {
     std::vector<Vec2> outline_;
     Vec2 pivot_;
     double base_ = 0;  // radius of the base circle [m]
+    const char* rotation_ = "";
     render::Bounds bounds_;
     render::Camera camera_;
     PageCanvas* to_ = nullptr;

@@ -56,9 +56,11 @@ struct Interpolation {
     }
     std::array<double, kCount> coefficients(const std::array<double, kCount>& values) const {
         std::array<double, kCount> out{};
+        const double level = values[kCount / 2];  // differences from it have smaller rounding errors
+        out[0] = level;
         for (std::size_t j = 0; j < kCount; ++j) {
             double weight = 0;
-            for (std::size_t i = 0; i < kCount; ++i) weight += transform[j][i] * values[i];
+            for (std::size_t i = 0; i < kCount; ++i) weight += transform[j][i] * (values[i] - level);
             for (std::size_t k = 0; k <= j; ++k) out[k] += weight * chebyshev[j][k];
         }
         return out;
