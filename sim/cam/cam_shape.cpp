@@ -78,7 +78,7 @@ const Interpolation& interpolation() {
 struct CamShape::Fit {
     // Above the rounding of the formulas, which is largest in ρ; a piece that agrees so far is mostly accurate to
     // rounding.
-    static constexpr double kErrorOfHeight = 3e-15, kErrorOfRadius = 3e-14;  // of the size
+    static constexpr double kErrorOfHeight = 1.5e-15, kErrorOfRadius = 2e-14;  // of the size
     static constexpr int kMostHalvings = 7;
 
     const ProfileSpan& span;

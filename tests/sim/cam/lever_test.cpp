@@ -155,6 +155,24 @@ TEST(Lever, JumpsAtAJumpOfTheAcceleration) {
     EXPECT_NEAR(lever.jump()->speed, std::min(expected, of_the_rise), 1e-9);
 }
 
+// The channel is that of the cam's turn at the instant, also of a disc.
+TEST(Lever, ChannelsAreItsAngleAndTheHubsDeviation) {
+    Problem law = lift_and_return_lever();
+    law.cam->phase = 0.7;
+    law.cam->speed = -3;
+    for (const Problem& p : {law, Problem{}}) {
+        const Lever lever(p);
+        const std::vector<double> times{0, 0.1, 0.5, 0.9};
+        const std::vector<double> follow = series(p, "theta_follow", times), error = series(p, "lift_error", times),
+                                  theta = series(p, "theta", times);
+        for (std::size_t i = 0; i < times.size(); ++i) {
+            const double phi = -(p.cam->phase - p.cam->speed * times[i]);
+            EXPECT_NEAR(follow[i], lever.at(phi).motion.theta, 1e-15);
+            EXPECT_NEAR(error[i], theta[i] - follow[i], 1e-15);
+        }
+    }
+}
+
 TEST(Lever, OneArcAndManyPointsAreTheDisc) {
     const Lever disc{Problem{}};
     const Lever arc(with_profile(ArcsProfile{{{{0.02, 0}, 0.1}}}));
