@@ -133,6 +133,37 @@ ColumnTable impacts_table(const sim::Result& result) {
     return table;
 }
 
+// The turn φ = −ψ of the cam at an instant, from 0 to 2π.
+double turn_of(const sim::Problem& problem, double t) {
+    return 2 * std::numbers::pi *
+           sim::turn_fraction((problem.cam->speed * t - problem.cam->phase) / (2 * std::numbers::pi));
+}
+
+// The intervals without contact in the last turn of the cam, and where on the cam the largest force acts.
+void add_turn(const sim::Problem& problem, const sim::Result& result, const std::vector<ChannelExtremum>& extrema,
+              Node& out) {
+    for (const ChannelExtremum& e : extrema)
+        if (e.channel.kind == sim::ChannelKind::contact_force)
+            add(out, "phi_of_largest_force", turn_of(problem, e.extremum.t_max));
+    const double turn = cam_period(problem), end = result.end_time, begin = end - turn;
+    if (problem.cam->speed == 0 || begin < 0) return;
+    Node apart = array_node();
+    const auto add_flight = [&](double from, double to) {
+        if (from < to)
+            apart.items.push_back(object_node(
+                {{"from", from}, {"to", to}, {"phi_from", turn_of(problem, from)}, {"phi_to", turn_of(problem, to)}}));
+    };
+    double left = begin;  // since then the beam is apart
+    for (const sim::Impact& impact : result.impacts) {
+        const double until = impact.t_end.value_or(end);
+        if (until < begin) continue;
+        add_flight(left, impact.t_start);
+        left = std::max(left, until);
+    }
+    add_flight(left, end);
+    add(out, "apart_in_last_turn", std::move(apart));
+}
+
 // Differences are measured minus computed, in the channel's unit.
 Node agreement_node(const Agreement& each, const char* unit) {
     Node out = object_node({{"label", each.label},
@@ -184,6 +215,7 @@ std::string summary_json(const sim::Problem& problem, const sim::Result& result,
                             {"energy_scale", result.energy_scale},
                             {"impacts", result.impacts.size()},
                             {"collisions", result.collisions.size()}});
+    if (problem.cam && problem.cam->profile) add_turn(problem, result, extrema, out);
     if (result.reproducible_until) add_reproducibility(result, out);
     if (!data.empty())
         add(out, "data",

@@ -199,6 +199,7 @@ DrawnBeam drawn_beam(const Problem& problem, const Pose& pose, double factor, do
 double film_factor(const Problem& problem, std::size_t frames, const std::function<Pose(std::size_t)>& pose_of,
                    std::optional<double> requested) {
     constexpr double kShare = 0.10, kTilt = 0.25;  // of the length; [rad]
+    constexpr double kMost = 50;                   // what bends less is drawn straight
     if (problem.beam.model == sim::ModelKind::rigid) return 1;
     double factor = requested.value_or(1e6);
     if (!requested) {
@@ -214,7 +215,7 @@ double film_factor(const Problem& problem, std::size_t frames, const std::functi
         if (deflection < 1e-6 * problem.beam.length) return 1;
         factor = kShare * problem.beam.length / deflection;
         if (slope > 0) factor = std::min(factor, kTilt / slope);
-        factor = factor > 1 ? round_down_125(factor) : 1.0;
+        factor = factor > 1 ? round_down_125(std::min(factor, kMost)) : 1.0;
     }
     return clear_factor(problem, frames, pose_of, factor);
 }

@@ -51,9 +51,9 @@ struct DrawnBeam {
 DrawnBeam drawn_beam(const sim::Problem& problem, const sim::Pose& pose, double factor, double depth,
                      const sim::Problem* reference = nullptr);
 
-// The factor of a film: `requested`, or the round number that makes the largest deflection about a tenth of the length
-// without tilting the contact by more than a quarter radian; 1 for a rigid beam or visible bending. The factor is
-// reduced to the next smaller round number until no frame shows the beam inside the cam.
+// The factor of a film: `requested`, or the round number up to 50 that makes the largest deflection about a tenth of
+// the length without tilting the contact by more than a quarter radian; 1 for a rigid beam or visible bending. The
+// factor is reduced to the next smaller round number until no frame shows the beam inside the cam.
 double film_factor(const sim::Problem& problem, std::size_t frames,
                    const std::function<sim::Pose(std::size_t)>& pose_of, std::optional<double> requested);
 // `factor`, or the largest smaller round number with which no pose shows the beam inside the cam.

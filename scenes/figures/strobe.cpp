@@ -23,12 +23,20 @@ constexpr int kShownPoses = 9, kPoseStations = 65;
 void add_outline(const sim::Pose& pose, const sim::Problem& problem, std::optional<render::Color> fill,
                  render::Color color, double width, Sketch& to, render::Bounds& extent) {
     constexpr int kPoints = 240;
-    std::vector<Vec2> outline = render::placed_outline(problem, pose, kPoints);
-    for (const Vec2 p : outline) extent.add(p);
-    const Vec2 from = problem.cam->profile ? pose.cam_centre : disc_centre(*problem.cam, pose.t),
-               mark = outline.front();
-    if (fill) to.add({.kind = Sketch::Kind::area, .points = outline, .color = *fill});
-    to.add({.kind = Sketch::Kind::line, .points = std::move(outline), .color = color, .width = width});
+    const double radius = problem.cam->radius;
+    Vec2 from = pose.cam_centre, mark;
+    if (problem.cam->profile) {
+        std::vector<Vec2> outline = render::placed_outline(problem, pose, kPoints);
+        mark = outline.front();
+        for (const Vec2 p : outline) extent.add(p);
+        if (fill) to.add({.kind = Sketch::Kind::area, .points = outline, .color = *fill});
+        to.add({.kind = Sketch::Kind::line, .points = std::move(outline), .color = color, .width = width});
+    } else {
+        from = pose.disc_centre;
+        mark = from + radius * sim::unit(pose.cam_angle);
+        extent.add(from, radius);
+        fill ? to.disc(from, radius, *fill, width) : to.circle(from, radius, color, width);
+    }
     to.line(from, mark, color, 0.6);
 }
 

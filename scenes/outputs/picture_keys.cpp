@@ -50,10 +50,11 @@ static void visit(SceneVisitor& v, View& view) {
     const bool moved = !(view.shot == render::Shot{}) || !view.keyframes.empty();
     v.object(written_if(moved || view.style == render::Style::solid, "camera"),
              SceneVisitor::keys_of(view, visit_camera), "The camera.", nullptr);
-    visit_exaggeration(v, view.exaggeration,
-                       "Factor of the deflection, stated on the picture; 1 is the true shape. auto: a round factor "
-                       "that suits the motion during the film (at any frame rate), during the scene (stills at events) "
-                       "or before the instant of a still.");
+    visit_exaggeration(
+        v, view.exaggeration,
+        "Factor of the deflection, stated on the picture; 1 is the true shape. auto: a round factor up to "
+        "50 that suits the motion during the film (at any frame rate), during the scene (stills at "
+        "events) or before the instant of a still.");
 }
 
 static void visit(SceneVisitor& v, render::Shown& show) {

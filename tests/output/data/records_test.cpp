@@ -1,6 +1,7 @@
 #include "output/data/records.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "output/files/atomic_file.hpp"
 #include "tests/output/scratch.hpp"
@@ -133,6 +134,32 @@ TEST(Summary, ARigidBeamHasNoModes) {
     sim::Problem problem;
     problem.beam.model = sim::ModelKind::rigid;
     EXPECT_NE(summary_json(problem, one_collision(), kTheta).find("\"modes\": 0"), std::string::npos);
+}
+
+// The cam turns once a second.
+TEST(Summary, TellsWhereOnTheCamTheBeamIsApartInTheLastTurn) {
+    sim::Problem problem;
+    problem.cam->profile = sim::ArcsProfile{{{{0.01, 0}, 0.08}}};
+    problem.cam->speed = 2 * std::numbers::pi;
+    sim::Result result;
+    result.end_time = 3;
+    for (const auto& [from, to] : {std::pair(0.2, 0.3), std::pair(1.9, 2.125), std::pair(2.5, 2.625)}) {
+        sim::Impact& impact = result.impacts.emplace_back();
+        impact.t_start = from;
+        impact.t_end = to;
+    }
+    const std::vector<ChannelExtremum> force{{{sim::ChannelKind::contact_force}, {0, 0, 9, 1.25}}};
+    const std::string json = summary_json(problem, result, force);
+    const auto number_after = [&](std::size_t place, const char* key) {
+        return std::stod(json.substr(json.find(':', json.find(key, place)) + 1));
+    };
+    const std::size_t first = json.find("apart_in_last_turn"), second = json.find('}', first);
+    EXPECT_NEAR(number_after(0, "phi_of_largest_force"), std::numbers::pi / 2, 1e-12);
+    EXPECT_NEAR(number_after(first, "\"from\""), 2.125, 1e-12);
+    EXPECT_NEAR(number_after(first, "\"to\""), 2.5, 1e-12);
+    EXPECT_NEAR(number_after(first, "phi_to"), std::numbers::pi, 1e-9);
+    EXPECT_NEAR(number_after(second, "\"from\""), 2.625, 1e-12);
+    EXPECT_NEAR(number_after(second, "\"to\""), 3, 1e-12);
 }
 
 TEST(Summary, UndefinedNumbersAreNull) {

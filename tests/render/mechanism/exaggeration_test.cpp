@@ -204,6 +204,12 @@ TEST(Exaggeration, AutomaticFactorIsRoundAndShowsATenthOfTheLengthAtMost) {
     }
 }
 
+TEST(Exaggeration, AutomaticFactorOfAStiffBeamIsFifty) {
+    test::Synthetic how;
+    how.amplitude = 1e-5;
+    EXPECT_EQ(factor_of(test::synthetic_film(how), {}), 50);
+}
+
 TEST(Exaggeration, AFactorThatWouldEnterTheCamYields) {
     const FilmSetup film = test::synthetic_film();
     const double n = factor_of(film, 5000.0);
