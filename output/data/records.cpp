@@ -235,14 +235,16 @@ std::string modes_json(const std::vector<sim::Mode>& modes) {
                                  })}}));
 }
 
-std::string cam_json(const sim::Lever::Summary& s) {
-    return to_text(object_node({{"base_radius", s.base_radius},
-                                {"rho_min", s.rho_min},
-                                {"rho_min_phi", s.rho_min_phi},
-                                {"rho_max", s.rho_max},
-                                {"pressure_angle_max", s.pressure_angle_max},
-                                {"jump_speed", s.jump ? Node(s.jump->speed) : Node()},
-                                {"jump_phi", s.jump ? Node(s.jump->phi) : Node()}}));
+std::string cam_json(const sim::Lever::Summary& s, const std::optional<sim::BeamJump>& beam) {
+    Node all = object_node({{"base_radius", s.base_radius},
+                            {"rho_min", s.rho_min},
+                            {"rho_min_phi", s.rho_min_phi},
+                            {"rho_max", s.rho_max},
+                            {"pressure_angle_max", s.pressure_angle_max},
+                            {"jump_speed", s.jump ? Node(s.jump->speed) : Node()},
+                            {"jump_phi", s.jump ? Node(s.jump->phi) : Node()}});
+    if (beam) add(all, "beam_jump_speed", beam->leaves);
+    return to_text(all);
 }
 
 std::string peak_json(const sim::PeakBudget& budget, const std::string& unit) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "output/data/records.hpp"
 #include "output/files/atomic_file.hpp"
@@ -11,6 +12,7 @@
 #include "scenes/figures/figure_files.hpp"
 #include "scenes/scene/files.hpp"
 #include "sim/cam/lever.hpp"
+#include "sim/studies/beam_jump.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -19,6 +21,7 @@ struct CamArguments {
     Common common;
     std::string scene;
     std::vector<std::string> files;
+    bool beam = false;
 };
 
 double in_degrees(double angle) { return angle * 180 / std::numbers::pi; }
@@ -37,6 +40,28 @@ std::string summary_text(const sim::Lever::Summary& s) {
                 : "jump speed                   none: a straight rigid lever stays on the cam, or the drive depends on "
                   "time\n";
     return text;
+}
+
+// The speed at which the beam of the scene leaves the cam.
+sim::BeamJump jump_of_beam(const Scene& scene, const sim::Lever::Summary& summary) {
+    const sim::Problem& p = scene.problem;
+    if (is_prescribed(p.hub.drive)) throw UsageError("--beam: the drive prescribes the hub's angle; use a free hub");
+    if (!summary.jump || !(summary.jump->speed > 0))
+        throw UsageError("--beam: a straight rigid lever has no jump speed from which the search could begin");
+    const auto found = sim::beam_jump(p, summary.jump->speed);
+    if (!found)
+        throw UsageError(
+            fmt::format("--beam: the beam follows the cam up to twice the lever's jump speed, {:.6g} rad/s",
+                        2 * summary.jump->speed));
+    return *found;
+}
+
+std::string beam_text(const sim::BeamJump& jump) {
+    const double speed = jump.leaves, rpm = speed * 30 / std::numbers::pi;
+    if (jump.follows == 0)
+        return fmt::format("jump speed of the beam       below {:.6g} rad/s ({:.6g} rpm)\n", speed, rpm);
+    return fmt::format("jump speed of the beam       {:.6g} rad/s ({:.6g} rpm), started at rest on the cam\n", speed,
+                       rpm);
 }
 
 // Points of the outline at equal steps of the normal; `points` of a profile read them back.
@@ -81,7 +106,9 @@ int act(const CamArguments& args) {
     require_writable("-o", args.files, {".csv", ".npz", ".svg", ".pdf"}, file_list);
     const sim::Lever lever(scene.problem);
     const sim::Lever::Summary summary = lever.summary();
-    print_result(args.common, output::cam_json(summary), summary_text(summary));
+    std::optional<sim::BeamJump> beam;
+    if (args.beam) beam = jump_of_beam(scene, summary);
+    print_result(args.common, output::cam_json(summary, beam), summary_text(summary) + (beam ? beam_text(*beam) : ""));
     return for_each_file(args.files, [&](const std::string& file) {
         write_outline(file, scene, lever, file_list);
         inform(args.common, "wrote " + file);
@@ -103,6 +130,8 @@ void add_cam(Grammar& grammar) {
     app.option(
         "-o,--output", &args.files, "FILE",
         "Write the outline, too: its points as .csv or .npz, or the drawing at 1:1 as .svg or .pdf (repeatable)");
+    app.flag("--beam", args.beam,
+             "Find the jump speed of the scene's beam, too, by simulating six turns at each of some speeds");
     add_json(app, args.common);
     add_force(app, args.common);
 }

@@ -89,15 +89,17 @@ class CamDrawing {
     }
 
     void draw_base_circle() {
+        constexpr double kSlope = 0.6;  // of the dimension [rad]
         const Vec2 c = at({0, 0});
         const double radius = base_ * kPointsPerMetre;
         to_->circle(c, radius);
         to_->stroke({kGrey, kThin, {4 * kThin, 3 * kThin}, render::Cap::butt});
-        const Vec2 along{std::cos(0.6), -std::sin(0.6)};
+        const Vec2 along{std::cos(kSlope), -std::sin(kSlope)};
         arrow(c, c + radius * along);
         arrow(c, c - radius * along);
         const Vec2 across{along.y, -along.x};  // to the upper left, on paper
-        label(c - 0.4 * radius * along + 1.1 * kLetters * across, "Ø " + millimetres(2 * base_), render::HAlign::right);
+        to_->text(c + 0.5 * radius * along + 0.4 * kLetters * across, "Ø " + millimetres(2 * base_),
+                  {.size = kLetters, .color = kBlack, .align = render::HAlign::centre, .turned = kSlope});
     }
 
     void draw_sharpest_place() {

@@ -80,6 +80,21 @@ TEST(CamCommand, DrawsTheOutlineToScale) {
     EXPECT_TRUE(testing::slurp(folder / "cam.pdf").starts_with("%PDF"));
 }
 
+// The leaf of CAMS.md; the rigid one jumps as the lever.
+TEST(CamCommand, FindsTheJumpSpeedOfTheBeam) {
+    const Folder folder;
+    const auto jump = [&](const char* model) {
+        const Finished found =
+            shell(folder, std::string("$BEAMCAM cam '") + BEAMCAM_TEST_DIR +
+                              "/../scenes/valve-lever.json' --beam --json --set beam.model=" + model);
+        EXPECT_EQ(found.code, 0) << found.err;
+        return nlohmann::json::parse(found.out);
+    };
+    const auto flexible = jump("first-order"), rigid = jump("rigid");
+    EXPECT_NEAR(flexible["beam_jump_speed"].get<double>() * 30 / std::numbers::pi, 1369, 1);
+    EXPECT_NEAR(rigid["beam_jump_speed"].get<double>() / rigid["jump_speed"].get<double>(), 1, 1e-4);
+}
+
 TEST(CamCommand, RefusesWhatItCannotDo) {
     const Folder folder;
     folder.write("law.json", scene_with(kLaw));

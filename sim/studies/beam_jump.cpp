@@ -1,0 +1,41 @@
+#include "sim/studies/beam_jump.hpp"
+
+#include <cmath>
+
+#include "sim/run/simulate.hpp"
+
+namespace beamcam::sim {
+namespace {
+
+constexpr int kTurns = 6;       // vibration that the first turns excite has added up or decayed
+constexpr double kOpen = 1e-9;  // of the length: a gap beyond the rounding of the contact
+constexpr double kStep =
+    1.02;  // from one speed of the search to the next: narrower intervals of jumping are passed over
+constexpr double kClose = 1e-5;  // of the speed
+
+bool leaves_cam(Problem problem, double speed) {
+    problem.cam->speed = std::copysign(speed, problem.cam->speed);
+    problem.initial = {};
+    problem.initial.shape = InitialShape::resting;
+    Request request;
+    request.end_time = kTurns * cam_period(problem);
+    request.extrema = {*channel_named("gap")};
+    return simulate(problem, request).extrema.front().max > kOpen * problem.beam.length;
+}
+
+}  // namespace
+
+std::optional<BeamJump> beam_jump(const Problem& problem, double around) {
+    BeamJump jump{0, 0.25 * around};
+    while (!leaves_cam(problem, jump.leaves)) {
+        if (jump.leaves > 2 * around) return std::nullopt;
+        jump = {jump.leaves, kStep * jump.leaves};
+    }
+    while (jump.follows > 0 && jump.leaves - jump.follows > kClose * jump.leaves) {
+        const double middle = 0.5 * (jump.follows + jump.leaves);
+        (leaves_cam(problem, middle) ? jump.leaves : jump.follows) = middle;
+    }
+    return jump;
+}
+
+}  // namespace beamcam::sim
