@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -130,7 +131,9 @@ class CamDrawing {
             arrow(middle, {c.x, low});
             label(middle + Vec2{0, -0.9 * kLetters}, millimetres(norm(pivot_)));
         } else {
-            label(0.5 * (o + c) + Vec2{0.5 * kLetters, -0.9 * kLetters}, millimetres(norm(pivot_)));
+            const Vec2 along = (1 / std::max(1.0, norm(o - c))) * (o - c), across = sim::perp(along);
+            const double side = across.y > 0 ? -1 : 1;  // above the line
+            label(0.5 * (o + c) + 1.6 * side * kLetters * across, millimetres(norm(pivot_)));
         }
         label({kMargin, low + 1.6 * kLetters},
               fmt::format("1:1, mm; ρ {} … {}{}", millimetres(shape_.least_radius()),
