@@ -99,8 +99,7 @@ FilmContext::FilmContext(std::shared_ptr<const FilmSetup> s) : setup(std::move(s
     for (int m = 0; m < members(); ++m) written += motion(m).label;
     for (const FilmData& each : setup->data) written += each.label;
     cjk = setup->view.lang == Lang::zh || needs_cjk(written);
-    for (int m = 0; m < members(); ++m)
-        samples.push_back(contact_samples(motion(m).trace, motion(m).problem, motion(m).impacts));
+    for (int m = 0; m < members(); ++m) samples.push_back(contact_samples(motion(m).trace, motion(m).impacts));
     fonts = std::make_unique<const Fonts>(cjk);
     ++counts->font_sets;
     for (int m = 0; m < members(); ++m) labels.push_back(text_markup(motion(m).label));

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-
-#include "sim/cam/lever.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -34,29 +31,10 @@ std::vector<TraceSample> sampled_contacts(const sim::Table& table) {
     return out;
 }
 
-// Arc position on the disc at which a nearly straight beam touches at arc position x: its direction is at the angle φ
-// from the ray O→B with cos φ = (x + r)/|OB|. A slope of 1e-3 changes the result by a thousandth of the radius.
-double touched_arc(const sim::Problem& problem, const sim::Impact& impact) {
-    const sim::Cam& cam = *problem.cam;
-    if (cam.profile) {  // where a straight lever on it would touch
-        const double alpha = sim::Lever(problem).at(-impact.cam_angle).alpha, turns = alpha / (2 * std::numbers::pi);
-        return sim::cam_shape(problem)->arc((turns - std::floor(turns)) * 2 * std::numbers::pi);
-    }
-    const sim::Vec2 b = cam.centre + sim::unit(impact.cam_angle) * cam.eccentricity;
-    const double share = std::clamp((impact.x + problem.hub.radius) / norm(b), -1.0, 1.0);
-    const double to_disc = std::atan2(b.y, b.x);
-    const double side = std::remainder(problem.initial.angle - to_disc, 2 * std::numbers::pi) >= 0 ? 1 : -1;
-    const double normal = to_disc + side * std::acos(share) + side * std::numbers::pi / 2;
-    const double turns = (normal - impact.cam_angle) / (2 * std::numbers::pi);
-    return (turns - std::floor(turns)) * 2 * std::numbers::pi * cam.radius;
-}
-
 }  // namespace
 
-std::vector<TraceSample> contact_samples(const sim::Table& table, const sim::Problem& problem,
-                                         std::span<const sim::Impact> impacts) {
+std::vector<TraceSample> contact_samples(const sim::Table& table, std::span<const sim::Impact> impacts) {
     std::vector<TraceSample> out = sampled_contacts(table);
-    if (!problem.cam) return out;
     const auto* t = column(table, sim::ChannelKind::t);
     if (!t || t->empty()) return out;
     const double last = *std::ranges::max_element(*t);
@@ -66,7 +44,7 @@ std::vector<TraceSample> contact_samples(const sim::Table& table, const sim::Pro
         const std::span sampled(out.data(), known);
         const auto first = std::ranges::lower_bound(sampled, impact.t_start, {}, &TraceSample::t);
         if (first != sampled.end() && first->t <= *impact.t_end) continue;
-        out.push_back({impact.t_start, impact.x, touched_arc(problem, impact), *impact.force_peak});
+        out.push_back({impact.t_start, impact.x, impact.s, *impact.force_peak});
     }
     std::ranges::stable_sort(out, {}, &TraceSample::t);
     return out;

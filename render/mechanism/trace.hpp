@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "sim/observe/channels.hpp"
-#include "sim/problem/problem.hpp"
 #include "sim/run/simulate.hpp"
 
 namespace beamcam::render {
@@ -19,8 +18,7 @@ struct TraceSample {
 };
 // The rows of the table in contact (force > 0, defined places), sorted by time, and a sample for each impact that falls
 // between them: its place at touch and its peak force. Missing columns give no samples.
-std::vector<TraceSample> contact_samples(const sim::Table& table, const sim::Problem& problem,
-                                         std::span<const sim::Impact> impacts);
+std::vector<TraceSample> contact_samples(const sim::Table& table, std::span<const sim::Impact> impacts);
 
 class Trace {
   public:

@@ -15,10 +15,10 @@ ContactGeometry::ContactGeometry(const Problem& problem, const Model& model, con
       samples_(problem.beam.model == ModelKind::exact ? 4 * model.size() + kIntervalsOfExact
                                                       : 2 * model.size() + kIntervalsOfModes) {}
 
-// The disc that osculates the cam where it is nearest to a point of the beam, which faces it with one of its sides.
-OsculatingDisc ContactGeometry::disc_at(const BeamPoint& at, double t) const {
+// The beam's normal at a point, on the side away from the cam.
+Vec2 ContactGeometry::facing(const BeamPoint& at) const {
     const Vec2 across = perp(at.r1) * (1 / norm(at.r1));
-    return cam_.nearest(t, at.r, dot(across, at.r - cam_.axis()) < 0 ? -across : across);
+    return dot(across, at.r - cam_.axis()) < 0 ? -across : across;
 }
 
 // A starting point for Newton's method: the foot on the straight beam if there is only one foot, else the nearest of a
@@ -26,12 +26,12 @@ OsculatingDisc ContactGeometry::disc_at(const BeamPoint& at, double t) const {
 double ContactGeometry::near_foot(const Model& model, const GapBound& bound, double t) const {
     const double* q = model.coordinates();
     const Vec2 along = unit(q[0]), across = perp(along);
-    const OsculatingDisc facing = cam_.disc(t, dot(across, cam_.axis()) < 0 ? across : -across);
-    const double straight_foot = std::clamp(dot(facing.centre, along) - hub_radius_, 0.0, length_);
+    const OsculatingDisc faced = cam_.disc(t, dot(across, cam_.axis()) < 0 ? across : -across);
+    const double straight_foot = std::clamp(dot(faced.centre, along) - hub_radius_, 0.0, length_);
     if (bound.nearly_straight(q + 1)) return straight_foot;
     const double none[kMaxSize] = {}, step = length_ / samples_;
     const auto distance = [&](const BeamPoint& at) {
-        const OsculatingDisc disc = cam_.is_disc() ? facing : disc_at(at, t);
+        const OsculatingDisc disc = cam_.is_disc() ? faced : cam_.nearest(t, at.r, facing(at));
         return norm(at.r - disc.centre) - disc.radius;
     };
     const auto straight = [&](double x) { return distance({(hub_radius_ + x) * along, along, {}, {}, {}}); };
@@ -51,19 +51,21 @@ double ContactGeometry::near_foot(const Model& model, const GapBound& bound, dou
 }
 
 // The foot of the perpendicular from B: a root of r′·(r − B) with r″·(r − B) + r′·r′ > 0          (S24)
-// B is the centre of the disc that osculates the cam where it is nearest to r. It moves with r, but across the beam
-// once r is the foot: Newton's method still converges quadratically.
+// B is the centre of the disc that osculates the cam where its normal is that of the beam. It moves with r, but across
+// the beam once r is the foot: Newton's method still converges quadratically. At an end of the beam the disc is the one
+// at the nearest point of the cam.
 BeamPoint ContactGeometry::foot(const Model& model, double t, double x, ContactState& c) const {
     BeamPoint at;
     double low = 0, high = length_;
     c.at_end = false;
     for (int iteration = 0; iteration < kMaxFootSteps; ++iteration) {
         model.point(x, at);
-        if (iteration == 0 || !cam_.is_disc()) c.disc = disc_at(at, t);
+        if (iteration == 0 || !cam_.is_disc()) c.disc = cam_.disc(t, facing(at));
         const Vec2 d = at.r - c.disc.centre;
         const double slope = dot(at.r1, d);
         if ((x <= 0 && slope >= 0) || (x >= length_ && slope <= 0)) {
             c.at_end = true;
+            if (!cam_.is_disc()) c.disc = cam_.nearest(t, at.r, facing(at));
             break;
         }
         if (slope > 0)
@@ -74,7 +76,7 @@ BeamPoint ContactGeometry::foot(const Model& model, double t, double x, ContactS
         double next = bend > 0 ? x - slope / bend : (slope > 0 ? low : high);
         if (bend > 0 && std::fabs(next - x) <= kLastFootChange * length_ && next > 0 && next < length_) {
             if (next != x) model.point(x = next, at);
-            if (!cam_.is_disc()) c.disc = disc_at(at, t);
+            if (!cam_.is_disc()) c.disc = cam_.disc(t, facing(at));
             break;
         }
         if (next <= low || next >= high) {

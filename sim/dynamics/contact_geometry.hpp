@@ -35,7 +35,7 @@ class ContactGeometry {
   private:
     double near_foot(const Model& model, const GapBound& bound, double t) const;
     BeamPoint foot(const Model& model, double t, double x, ContactState& c) const;
-    OsculatingDisc disc_at(const BeamPoint& at, double t) const;
+    Vec2 facing(const BeamPoint& at) const;
 
     TurningCam cam_;
     double hub_radius_, length_, offset_;

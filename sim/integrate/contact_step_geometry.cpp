@@ -46,7 +46,7 @@ void ContactStep::place_contact(int corrections) {
     frame_.sin = step_.sin;
     frame_.cos = step_.cos;
     frame_.theta_dot = step_.frame_rate();
-    if (frame_.osculating) frame_.turned = step_.theta - cam_angle_;
+    if (frame_.osculating) frame_.turned = step_.frame_angle() - cam_angle_;
     ContactKinematics<Lanes>& contact = load.contact;
     expansion_.evaluate(step_.deflection(), step_.deflection_rate(), frame_, gap_offset_, hq_.data(), contact,
                         corrections);

@@ -46,6 +46,7 @@ struct NodalStep {
     void place_coordinates();
     const Lanes* deflection() const { return inertia_ ? position_.data() + 1 : segment.q.data(); }
     const Lanes* deflection_rate() const { return inertia_ ? rate_.data() + 1 : segment.v.data(); }
+    const Lanes& frame_angle() const { return frame_angle_; }
     const Lanes& frame_rate() const { return inertia_ ? rate_[0] : segment.theta_dot; }
     // ṗ at the nodes → Θ̇, Θ.
     void hub_from_load(double h);

@@ -1,7 +1,9 @@
 #include "sim/observe/impacts.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace beamcam::sim {
 namespace {
@@ -22,7 +24,10 @@ void ImpactRecorder::touch(double t, const double* y, const ContactState& c) {
     Impact impact;
     impact.t_start = t;
     impact.x = c.x;
-    impact.cam_angle = evaluator_.system().cam().angle(t);
+    const TurningCam& cam = evaluator_.system().cam();
+    impact.cam_angle = cam.angle(t);
+    const double turns = (std::atan2(c.normal.y, c.normal.x) - impact.cam_angle) / (2 * std::numbers::pi);
+    impact.s = cam.shape().arc(turn_fraction(turns) * 2 * std::numbers::pi);
     impact.v_n_before = c.gap_rate;
     impact.v_t_before = c.slip;
     impact.penetration_peak = std::max(0.0, -c.gap);

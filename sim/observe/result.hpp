@@ -24,6 +24,7 @@ struct Impact {
     std::optional<double> t_end;                 // absent: still touching at the end of the run
     double x = 0;                                // contact_x at touch [m]
     double cam_angle = 0;                        // ψ at touch [rad]
+    double s = 0;                                // contact_s at touch [m]; for pictures, in no table
     double v_n_before = 0, v_t_before = 0;       // at touch [m/s]
     std::optional<double> v_n_after, v_t_after;  // at release [m/s]
     std::optional<double> duration;              // [s]

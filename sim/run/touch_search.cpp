@@ -55,18 +55,26 @@ std::optional<double> TouchSearch::by_pieces(const Segment& segment, double end,
         }
         const auto at = first_fall(probe, a, b, probe_.gap_rounding());
         if (at && !opens(segment, *at)) return *at;
+        // The gap opened by less than the error of the step, and now closes.
+        const double deep = step_error();
+        if (a.value > -deep && b.value < -deep)
+            return find_root([&](double s) { return probe(s).value + deep; }, a.t, b.t, a.value + deep, b.value + deep);
         a = b;
     }
     return {};
+}
+
+// Of the gap, at most [m].
+double TouchSearch::step_error() const {
+    const Solver& solver = problem().solver;
+    return kGapErrors * (solver.rtol * reach() + solver.atol);
 }
 
 // At an instant with a negative gap: true if it is an integration error of a gap that opens, because the beam
 // accelerates away from the cam. After a lift the gap grows like t³, at first more slowly than the error.
 bool TouchSearch::opens(const Segment& segment, double t) {
     const ContactState c = probe_.contact(segment, t);
-    const Solver& solver = problem().solver;
-    const double step_error = kGapErrors * (solver.rtol * reach() + solver.atol);  // at most, of the gap
-    if (c.gap_rate < -problem().contact.approach_floor.value || c.gap < -step_error) return false;
+    if (c.gap_rate < -problem().contact.approach_floor.value || c.gap < -step_error()) return false;
     const double pull = probe_.system.free_gap_acceleration(t, probe_.state());
     return pull > 0 && (c.gap_rate > 0 || c.gap_rate * c.gap_rate < 2 * pull * probe_.gap_rounding());
 }

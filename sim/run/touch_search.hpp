@@ -27,6 +27,7 @@ class TouchSearch {
     std::optional<double> by_resolving(const Segment& segment);
     std::optional<double> falling(const Segment& segment, double t, ContactState c, double latest);
     bool opens(const Segment& segment, double t);
+    double step_error() const;
     double gap_acceleration_bound(const MotionBounds& bounds, double far) const;
     double reach() const { return std::fabs(problem().hub.radius) + problem().beam.length; }
     double lower_bound(double t, double h, const double* xi, const double* spread) const;

@@ -350,7 +350,7 @@ TEST(Trace, RowsWithoutContactAreNoSamples) {
     using K = sim::ChannelKind;
     const sim::Table table{{{K::t, 0}, {K::contact_x, 0}, {K::contact_s, 0}, {K::contact_force, 0}},
                            {{0, 1, 2}, {0.1, 0.2, std::nan("")}, {1, 1, 1}, {0, 4, 4}}};
-    const auto samples = contact_samples(table, {}, {});
+    const auto samples = contact_samples(table, {});
     ASSERT_EQ(samples.size(), 1U);
     EXPECT_EQ(samples[0].x, 0.2);
 }
