@@ -25,10 +25,13 @@ constexpr Absent kAbsent[] = {
      "the cam turns at constant speed: its own dynamics are not modelled"},
     {WordKind::not_modelled, "cams beams", "several cams or beams are not modelled; \"compare\" shows several motions"},
     {WordKind::not_modelled, "spring springs preload hub.stiffness joint_stiffness",
-     "springs at the hub or at the beam are not modelled; \"hub\": {\"drive\": {\"type\": \"torque\", …}} presses the "
-     "beam"},
+     "\"hub\": {\"spring\": {\"stiffness\", \"free_angle\", \"damping\"}} is a spring at the hub; springs at the beam "
+     "are not "
+     "modelled"},
     {WordKind::not_modelled, "damper dashpot bearing hub.damping hub.friction joint_damping",
-     "damping and friction at the hub are not modelled; beam.damping_ratio and beam.kelvin_voigt damp vibrations"},
+     "hub.spring.damping damps the hub, beam.damping_ratio and beam.kelvin_voigt its vibrations; friction at the hub "
+     "is not "
+     "modelled"},
     {WordKind::not_modelled, "tip_mass point_mass mass masses payload",
      "a mass at the tip or at a point is not modelled; the beam's own mass follows from density and area"},
     {WordKind::not_modelled, "roller follower nose tip_radius",

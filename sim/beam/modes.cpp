@@ -37,18 +37,24 @@ std::vector<Mode> natural_modes(const Problem& given, std::optional<double> spee
     if (held && problem.beam.basis == Basis::automatic) problem.beam.basis = Basis::cantilever;
     const std::unique_ptr<Model> model = make_model(problem);
     const Eigen::Index size = model->size(), n = size - 1;
-    if (n == 0) return {};
+    const double spring = !held && problem.hub.spring ? problem.hub.spring->stiffness : 0;
+    if (n == 0 && spring == 0) return {};
     Linearization linear = model->linearize();
+    const Eigen::Map<const Eigen::VectorXd> hub(model->hub_row(), size);  // θ = hub·ξ
+    linear.stiffness += spring * hub * hub.transpose();
     if (speed) linear.stiffness += *speed * *speed * linear.centrifugal;
 
     // Reduction (Θ, q) → q. With a free hub, Θ has no stiffness and follows from its row; with a clamped one,
-    // θ = Θ + h·q = 0. Both have the form Θ = −c·q (S42).
+    // θ = Θ + h·q = 0. Both have the form Θ = −c·q (S42). A spring gives Θ a stiffness, and the hub a mode of its own.
     Eigen::RowVectorXd follow(n);
     for (Eigen::Index i = 0; i < n; ++i)
         follow[i] = held ? -model->hub_row()[1 + i] : -linear.mass(0, 1 + i) / linear.mass(0, 0);
-    Eigen::MatrixXd reduce(size, n);
-    reduce.row(0) = follow;
-    reduce.bottomRows(n).setIdentity();
+    Eigen::MatrixXd reduce = Eigen::MatrixXd::Identity(size, size);
+    if (spring == 0) {
+        reduce.resize(size, n);
+        reduce.row(0) = follow;
+        reduce.bottomRows(n).setIdentity();
+    }
     const Eigen::MatrixXd m = in_basis(linear.mass, reduce);
     Eigen::MatrixXd k = in_basis(linear.stiffness, reduce);
     k = 0.5 * (k + k.transpose()).eval();
@@ -56,15 +62,16 @@ std::vector<Mode> natural_modes(const Problem& given, std::optional<double> spee
 
     const double zero[kMaxSize] = {};
     model->set(zero, zero);
-    std::vector<Mode> modes(static_cast<std::size_t>(n));
-    for (Eigen::Index j = 0; j < n; ++j) {
+    std::vector<Mode> modes(static_cast<std::size_t>(reduce.cols()));
+    for (Eigen::Index j = 0; j < reduce.cols(); ++j) {
         Mode& mode = modes[static_cast<std::size_t>(j)];
         const double square = natural.omega_squared[j];
         mode.omega = square >= 0 ? std::sqrt(square) : std::numeric_limits<double>::quiet_NaN();
-        mode.shape = shape_of(*model, reduce * natural.shapes.col(j));
+        const Eigen::VectorXd xi = reduce * natural.shapes.col(j);
+        mode.shape = shape_of(*model, xi);
         const double sign = mode.shape.back().y < 0 ? -1 : 1;
         for (Vec2& at : mode.shape) at.y *= sign;
-        for (const double q : natural.shapes.col(j)) mode.q.push_back(sign * q + 0.0);  // no −0
+        for (const double q : xi.tail(n)) mode.q.push_back(sign * q + 0.0);  // no −0
     }
     return modes;
 }

@@ -17,7 +17,7 @@ constexpr double kSameTurn = 1e-9;         // [rad] of sums of angles that are w
 constexpr double kShortestSegment = 1e-6;  // [rad] of a segment: the outline would turn in less than a step's rounding
 constexpr double kSharp = 1e-6;            // of the outline's size: a radius of curvature that is an edge
 constexpr double kTangent = 1e-6;          // of the outline's size: the digits of a drawing
-constexpr std::size_t kFewestPoints = 24;
+constexpr std::size_t kFewestPoints = 24, kMostPoints = 100'000;
 constexpr double kLongestGap =
     4;  // of the longest distance of neighbours: the first and the last point of an open curve
 
@@ -277,6 +277,9 @@ std::vector<Issue> check_points(const PointsProfile& profile) {
         return {{"cam.profile", fmt::format("the points need as many second coordinates ({}) as first ones ({})",
                                             profile.y.size(), profile.x.size())}};
     const auto wrong = [](std::string message) { return std::vector<Issue>{{"cam.profile", std::move(message)}}; };
+    if (profile.x.size() > kMostPoints)
+        return wrong(fmt::format("an outline has at most {} points, this one has {}: leave out most of them",
+                                 kMostPoints, profile.x.size()));
     const OrientedPoints outline = oriented(profile);
     const std::vector<Vec2>& points = outline.points;
     const std::size_t n = points.size();

@@ -20,7 +20,9 @@ std::string si_unit(const Dimension& d) {
                                                                         {dim::kPressure, "Pa"},
                                                                         {dim::kTorque, "N m"},
                                                                         {dim::kFrequency, "Hz"},
-                                                                        {dim::kSpringStiffness, "N/m"}};
+                                                                        {dim::kSpringStiffness, "N/m"},
+                                                                        {dim::kTorsionStiffness, "N m/rad"},
+                                                                        {dim::kTorsionDamping, "N m s/rad"}};
     for (const auto& [known, name] : kNames)
         if (same(d, known)) return std::string(name);
     if (d.mass == 1 && d.time == -2 && d.angle == 0 && d.length == 1) return "N";

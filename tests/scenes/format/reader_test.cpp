@@ -312,8 +312,8 @@ TEST(Reader, WholeNumbersOfRadiansBeyondATurnArePerhapsDegrees) {
 TEST(Reader, KeysForWhatIsNotModelledSaySo) {
     for (const auto& [scene, message] :
          {std::pair{R"({"cam": {"liftTable": 1}})", "\"profile\" of the cam describes any convex outline"},
-          {R"({"hub": {"return_spring": {}}})", "springs at the hub or at the beam are not modelled"},
-          {R"({"hub": {"damping": 1}})", "damping and friction at the hub are not modelled"},
+          {R"({"hub": {"return_spring": {}}})", "springs at the beam are not modelled"},
+          {R"({"hub": {"damping": 1}})", "friction at the hub is not modelled"},
           {R"({"beam": {"tip-mass": 1}})", "a mass at the tip or at a point is not modelled"},
           {R"({"contact": {"roller_radius": 1}})", "a roller or a nose is not modelled"},
           {R"({"beam": {"taper": 0.5}})", "tapered and stepped beams are not modelled"},

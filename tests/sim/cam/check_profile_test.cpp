@@ -152,6 +152,7 @@ TEST(CheckProfile, KnowsArcsThatAreNoOutline) {
 TEST(CheckProfile, KnowsPointsThatAreNoOutline) {
     expect_error(PointsProfile{}, "cam.profile", HasSubstr("at least 24 points, has 0"));
     expect_error(circle(23), "cam.profile", HasSubstr("at least 24 points, has 23"));
+    expect_error(circle(100'001), "cam.profile", HasSubstr("at most 100000 points, this one has 100001"));
     PointsProfile points = circle(40);
     points.y.pop_back();
     expect_error(points, "cam.profile", AllOf(HasSubstr("(39)"), HasSubstr("(40)")));

@@ -1,6 +1,7 @@
 // The spring and damper of the hub against closed forms, and the methods against each other.
 #include <cmath>
 
+#include "sim/beam/modes.hpp"
 #include "tests/sim/support.hpp"
 
 namespace beamcam::sim::testing {
@@ -48,6 +49,20 @@ TEST(HubSpring, TheMethodsAgreeAndTheEnergyBalanceCloses) {
         EXPECT_NEAR(series(p, "energy_residual", {0.2}).front(), 0, 1e-8) << name(model);
         EXPECT_NEAR(series(p, "loss_hub", {0.2}).front(), series(other, "loss_hub", {0.2}).front(), 1e-7);
     }
+}
+
+TEST(HubSpring, GivesTheHubAModeOfItsOwn) {
+    Problem p = falling_beam(ModelKind::rigid);
+    p.hub.spring = {7, 0.2, 0};
+    p.hub.inertia = 0.03;
+    const double J = 0.03 + p.beam.line_density() * std::pow(p.beam.length, 3) / 3;
+    ASSERT_EQ(natural_modes(p, {}).size(), 1u);
+    EXPECT_NEAR(natural_modes(p, {}).front().omega, std::sqrt(7 / J), 1e-12);
+    p = falling_beam(ModelKind::first_order, Basis::cantilever, 6);
+    p.hub.spring = {1e9, 0, 0};  // a clamp
+    const std::vector<Mode> modes = natural_modes(p, {});
+    ASSERT_EQ(modes.size(), 7u);
+    EXPECT_NEAR(modes.front().omega, first_clamped_frequency(p.beam), 1e-4 * modes.front().omega);
 }
 
 // At rest on a cam that stands still: N x_c = M(θ) of weight and spring.
