@@ -53,7 +53,7 @@ std::vector<double> state_with(System& system, double gap) {
         y[0] = angle;
         return system.contact(kJetTime, y.data()).gap - gap;
     };
-    if (!system.drive().prescribed()) y[0] = find_root(excess, 0.2, 1.2);
+    if (!system.drive().prescribed()) y[0] = find_root(excess, 0.05, 1.2);
     return y;
 }
 
