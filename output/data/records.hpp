@@ -39,9 +39,9 @@ std::string modes_json(const std::vector<sim::Mode>& modes);
 
 // Every row of the assessment, its conditions and the recommendation.
 std::string accuracy_json(const sim::Accuracy& accuracy);
-// The largest value of a channel, its change by each variant, and the recommendation; in the channel's unit.
 // With the speed at which the beam leaves the cam if it is known.
 std::string cam_json(const sim::Lever::Summary& summary, const std::optional<sim::BeamJump>& beam);
+// The largest value of a channel, its change by each variant, and the recommendation; in the channel's unit.
 std::string peak_json(const sim::PeakBudget& budget, const std::string& unit);
 
 }  // namespace beamcam::output

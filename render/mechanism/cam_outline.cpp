@@ -2,28 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "sim/cam/cam_shape.hpp"
+#include "sim/cam/motion_law.hpp"
 
 namespace beamcam::render {
-namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
-
-}  // namespace
 
 // The normal at the arc s by Newton's method, ds/dα = ρ, from the one before.
 CamOutline cam_outline(const sim::Problem& problem, int count) {
     constexpr int kSteps = 4;  // the first point of a sharp nose needs the most
     const auto shape = sim::cam_shape(problem);
-    const double whole = shape->arc(kTurn);
+    const double whole = shape->arc(sim::kFullTurn);
     CamOutline out;
     double alpha = 0;
     for (int i = 0; i < count; ++i) {
         const double s = whole * i / count;
         for (int k = 0; k < kSteps; ++k)
-            alpha = std::clamp(alpha + (s - shape->arc(alpha)) / shape->at(alpha).radius, 0.0, kTurn);
+            alpha = std::clamp(alpha + (s - shape->arc(alpha)) / shape->at(alpha).radius, 0.0, sim::kFullTurn);
         out.points.push_back(shape->at(alpha).position(alpha));
         out.normals.push_back(sim::unit(alpha));
     }
@@ -45,6 +40,6 @@ std::vector<sim::Vec2> placed_outline(const sim::Problem& problem, const sim::Po
 }
 
 double cam_reach(const sim::Problem& problem) { return sim::cam_shape(problem)->largest_reach(); }
-double cam_circumference(const sim::Problem& problem) { return sim::cam_shape(problem)->arc(kTurn); }
+double cam_circumference(const sim::Problem& problem) { return sim::cam_shape(problem)->arc(sim::kFullTurn); }
 
 }  // namespace beamcam::render

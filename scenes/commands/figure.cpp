@@ -176,7 +176,7 @@ FigureOutput figure_output(const FigureArguments& args, const std::optional<Pres
 
 // ---- a table in place of a scene ---------------------------------------------------------------------
 
-bool is_table(const std::string& file) {
+bool holds_columns(const std::string& file) {
     static constexpr std::array kEndings{".csv", ".npz", ".tsv", ".txt", ".dat"};
     return std::ranges::find(kEndings, lowered(std::filesystem::path(file).extension().string())) != kEndings.end();
 }
@@ -215,7 +215,7 @@ void draw_table(const FigureArguments& args) {
 
 void act(const FigureArguments& given) {
     FigureArguments args = given;
-    if (is_table(args.scene)) return draw_table(args);
+    if (holds_columns(args.scene)) return draw_table(args);
     Scene scene = load_scene(args.scene, args.common);
     if (args.figure.empty() && !args.of_series().empty()) args.figure = "series";
     if (args.figure.empty() && args.print.value("--at")) args.figure = "strobe";

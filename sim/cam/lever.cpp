@@ -9,8 +9,8 @@
 
 namespace beamcam::sim {
 
-Lever::Lever(const Problem& p, CamShape shape)
-    : shape_(std::move(shape)),
+Lever::Lever(const Problem& p)
+    : shape_(cam_shape(p)),
       distance_(norm(p.cam->centre)),
       direction_(std::atan2(p.cam->centre.y, p.cam->centre.x)),
       offset_(contact_offset(p)) {
@@ -28,9 +28,9 @@ Lever::Lever(const Problem& p, CamShape shape)
 Lever::State Lever::at_normal(double alpha) const {
     State s;
     s.alpha = alpha;
-    s.point = shape_.at(alpha);
+    s.point = shape_->at(alpha);
     const double across = s.point.h + offset_, h2 = s.point.radius - s.point.h;
-    const double h3 = shape_.radius_slope(alpha) - s.point.slope;
+    const double h3 = shape_->radius_slope(alpha) - s.point.slope;
     const double along = std::sqrt((distance_ - across) * (distance_ + across));  // C·u
     const double t1 = s.point.slope / along, t2 = (h2 + across * t1 * t1) / along;
     const double t3 = (h3 + 3 * across * t1 * t2 + along * t1 * t1 * t1) / along;
@@ -58,8 +58,7 @@ Lever::State Lever::at(double phi) const {
 double Lever::pressure_angle(const State& state) const { return std::atan2(offset_, state.foot); }
 
 double Lever::pressing_moment(double theta) const {
-    const double spring = spring_ ? spring_->stiffness * (theta - spring_->free_angle) : 0;
-    return weight_ * std::cos(theta) + spring - torque_;
+    return weight_ * std::cos(theta) - (spring_ ? spring_->torque(theta, 0) : 0) - torque_;
 }
 
 double Lever::turn_at_normal(double alpha) const {
@@ -68,12 +67,12 @@ double Lever::turn_at_normal(double alpha) const {
 }
 
 Lever::Summary Lever::summary() const {
-    const std::vector<double> ends = shape_.intervals();
-    const Vec2 sharpest = largest_over(ends, [&](double a) { return -shape_.at(a).radius; });
+    const std::vector<double> ends = shape_->intervals();
+    const Vec2 sharpest = largest_over(ends, [&](double a) { return -shape_->at(a).radius; });
     const Vec2 steepest = largest_over(ends, [&](double a) { return pressure_angle(at_normal(a)); });
-    return {shape_.least_height(),
-            shape_.least_radius(),
-            shape_.largest_radius(),
+    return {shape_->least_height(),
+            shape_->least_radius(),
+            shape_->largest_radius(),
             sharpest.x,
             turn_at_normal(sharpest.x),
             std::max(0.0, steepest.y),
@@ -83,7 +82,7 @@ Lever::Summary Lever::summary() const {
 // (S107): Jθ″ω² + cθ′ω + M vanishes first where the larger root 1/ω of Jθ″ + cθ′/ω + M/ω² is largest.
 std::optional<Lever::Jump> Lever::jump() const {
     if (is_driven_) return std::nullopt;
-    const std::vector<double> ends = shape_.intervals();
+    const std::vector<double> ends = shape_->intervals();
     const Vec2 least = largest_over(ends, [&](double a) { return -pressing_moment(at_normal(a).motion.theta); });
     if (!(least.y < 0)) return Jump{0, turn_at_normal(least.x)};
     const double damping = spring_ ? sense_ * spring_->damping : 0;

@@ -12,8 +12,7 @@ namespace beamcam::sim {
 
 class Lever {
   public:
-    Lever(const Problem& problem, CamShape shape);  // with a cam
-    explicit Lever(const Problem& problem) : Lever(problem, CamShape(problem)) {}
+    explicit Lever(const Problem& problem);  // with a cam
 
     struct State {
         double alpha = 0, phi = 0;  // angle of the outline's normal, turn of the cam [rad]
@@ -39,7 +38,7 @@ class Lever {
     };
     std::optional<Jump> jump() const;
 
-    const CamShape& shape() const { return shape_; }
+    const CamShape& shape() const { return *shape_; }
 
     // The numbers by which a designer judges a cam. Angles are NaN where no lever reaches the cam.
     struct Summary {
@@ -55,7 +54,7 @@ class Lever {
   private:
     double turn_at_normal(double alpha) const;  // φ in [0, 2π)
 
-    CamShape shape_;
+    std::shared_ptr<const CamShape> shape_;
     double distance_, direction_, offset_;  // of C from the pivot [m], [rad]; d [m]
     double inertia_, weight_, torque_;      // [kg m²], moment of gravity at θ = 0 and torque of the drive [N m]
     std::optional<HubSpring> spring_;

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "sim/cam/motion_law.hpp"
 
 namespace beamcam::sim {
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
 constexpr int kMostClimbs = 30;        // Newton's method needs three to six
 constexpr double kLastClimb = 1e-8;    // [rad]: the next step of Newton's method, which squares it, is rounding
 constexpr double kLongestClimb = 0.3;  // [rad]
@@ -24,12 +24,17 @@ TurningCam::TurningCam(const Problem& problem)
       eccentricity_(problem.cam.value_or(Cam{}).eccentricity),
       is_disc_(shape_->is_disc()) {}
 
+double TurningCam::place(double t, Vec2 normal) const {
+    const double turn = alpha(t, normal);
+    return shape_->arc(turn - kFullTurn * std::floor(turn / kFullTurn));
+}
+
 OsculatingDisc TurningCam::disc(double t, Vec2 normal) const {
     if (is_disc_) {
         const Vec2 arm = eccentricity_ * unit(angle(t));
         return {axis_ + arm, -speed_ * perp(arm), radius_};
     }
-    const CamPoint at = shape_->at(std::atan2(normal.y, normal.x) - angle(t));
+    const CamPoint at = shape_->at(alpha(t, normal));
     const Vec2 arm = (at.h - at.radius) * normal + at.slope * perp(normal);
     return {axis_ + arm, -speed_ * perp(arm), at.radius};
 }
@@ -38,7 +43,7 @@ OsculatingDisc TurningCam::nearest(double t, Vec2 point, Vec2 normal) const {
     if (is_disc_) return disc(t, normal);
     const double psi = angle(t), c = std::cos(psi), s = std::sin(psi);
     const Vec2 d = point - axis_, in_cam{c * d.x + s * d.y, c * d.y - s * d.x};
-    return disc(t, unit(psi + nearest_normal(in_cam, std::atan2(normal.y, normal.x) - psi)));
+    return disc(t, unit(psi + nearest_normal(in_cam, alpha(t, normal))));
 }
 
 // A point P in the cam's frame lies P·n(α) − h(α) beyond the tangent at α, and the largest of these is its distance
@@ -48,7 +53,7 @@ double TurningCam::nearest_normal(Vec2 point, double alpha) const {
     if (climb(point, alpha)) return alpha;
     double best = guess, farthest = dot(point, unit(guess)) - shape_->at(guess).h;
     for (int i = 0; i < kNormalsOfSearch; ++i) {
-        const double a = kTurn * i / kNormalsOfSearch, beyond = dot(point, unit(a)) - shape_->at(a).h;
+        const double a = kFullTurn * i / kNormalsOfSearch, beyond = dot(point, unit(a)) - shape_->at(a).h;
         if (beyond > farthest) {
             best = a;
             farthest = beyond;

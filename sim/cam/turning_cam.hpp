@@ -1,6 +1,7 @@
 // The cam as it turns: its angle, and the disc that osculates its outline at a point of contact. MODEL.md §7.
 #pragma once
 
+#include <cmath>
 #include <memory>
 
 #include "sim/cam/cam_shape.hpp"
@@ -23,14 +24,15 @@ class TurningCam {
     Vec2 axis() const { return axis_; }                           // C
     double speed() const { return speed_; }                       // ω
     double angle(double t) const { return phase_ - speed_ * t; }  // ψ (S23)
+    // The angle α in the cam's frame of a normal in space, and contact_s at the point of the outline that has it.
+    double alpha(double t, Vec2 normal) const { return std::atan2(normal.y, normal.x) - angle(t); }
+    double place(double t, Vec2 normal) const;
 
     // The disc at the point of the outline with the outward unit normal n in space.
     OsculatingDisc disc(double t, Vec2 normal) const;
     // The disc at the point of the outline that is nearest to a point in space, which lies outside or less than a
     // radius of curvature within. `normal`: a guess of the outward normal there.
     OsculatingDisc nearest(double t, Vec2 point, Vec2 normal) const;
-    // Centre and velocity of the disc about the centre of curvature q, in the cam's frame.
-    OsculatingDisc placed(double t, Vec2 q, double radius) const;
 
   private:
     double nearest_normal(Vec2 point, double alpha) const;

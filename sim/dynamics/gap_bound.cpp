@@ -46,7 +46,7 @@ double GapBound::straight_gap(double angle, double t) const {
         return norm(disc.centre - nearest(disc.centre)) - disc.radius - offset_;
     }
     const auto beyond = [&](Vec2 normal) {
-        const double height = cam_.shape().at(std::atan2(normal.y, normal.x) - cam_.angle(t)).h;
+        const double height = cam_.shape().at(cam_.alpha(t, normal)).h;
         const double root = dot(radius_ * along - cam_.axis(), normal), tip = root + length_ * dot(along, normal);
         return std::min(root, tip) - height - offset_;
     };

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <initializer_list>
 #include <iterator>
-#include <optional>
 #include <vector>
 
 #include "sim/base/counted.hpp"
@@ -357,9 +356,9 @@ std::vector<Issue> validate(const Problem& problem) {
     }
     check_given_shapes(out, problem);
     check_given_contact(out, problem);
-    std::optional<CamShape> shape;
-    if (problem.cam && !out.has_errors()) shape.emplace(problem);
-    if (!out.has_errors()) check_products(out, problem, shape ? &*shape : nullptr);
+    std::shared_ptr<const CamShape> shape;
+    if (problem.cam && !out.has_errors()) shape = cam_shape(problem);
+    if (!out.has_errors()) check_products(out, problem, shape.get());
     const bool sane = !out.has_errors();
     if (sane && shape) check_geometry(out, problem, *shape);
     if (sane && problem.beam.model == ModelKind::paper)

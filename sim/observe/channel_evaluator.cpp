@@ -173,7 +173,7 @@ double ChannelEvaluator::spring_energy() {
 
 // (S106)
 double ChannelEvaluator::followed_angle() {
-    if (!lever_) lever_.emplace(system_.problem(), system_.cam().shape());
+    if (!lever_) lever_.emplace(system_.problem());
     return lever_->at(-system_.cam().angle(t_)).motion.theta;
 }
 
@@ -189,11 +189,7 @@ double ChannelEvaluator::tip(ChannelKind kind) {
 }
 
 // Along the rim from the mark, in the sense in which angles grow.
-double ChannelEvaluator::place_on_rim() {
-    const double turn = std::atan2(contact().normal.y, contact().normal.x) - system_.cam().angle(t_);
-    const double full = 2 * std::numbers::pi;
-    return system_.cam().shape().arc(turn - full * std::floor(turn / full));
-}
+double ChannelEvaluator::place_on_rim() { return system_.cam().place(t_, contact().normal); }
 
 // The paper's eq. (6) and the same with the sign that N ≥ 0 gives: J θ̈ = N x − ½mgL cos θ (S41).
 double ChannelEvaluator::separation(ChannelKind kind) {

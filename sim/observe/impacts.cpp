@@ -1,9 +1,7 @@
 #include "sim/observe/impacts.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace beamcam::sim {
 namespace {
@@ -26,8 +24,7 @@ void ImpactRecorder::touch(double t, const double* y, const ContactState& c) {
     impact.x = c.x;
     const TurningCam& cam = evaluator_.system().cam();
     impact.cam_angle = cam.angle(t);
-    const double turns = (std::atan2(c.normal.y, c.normal.x) - impact.cam_angle) / (2 * std::numbers::pi);
-    impact.s = cam.shape().arc(turn_fraction(turns) * 2 * std::numbers::pi);
+    impact.s = cam.place(t, c.normal);
     impact.v_n_before = c.gap_rate;
     impact.v_t_before = c.slip;
     impact.penetration_peak = std::max(0.0, -c.gap);

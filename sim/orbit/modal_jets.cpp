@@ -102,9 +102,9 @@ void ModalJets::place_disc(const T& psi, const ContactState& near, Frame<T>& fra
     Vec2 arm{problem_.cam->eccentricity, 0};  // in the cam's frame
     frame.radius = problem_.cam->radius;
     if (!cam_.is_disc()) {
-        const Vec2 n = unit(std::atan2(near.normal.y, near.normal.x) - value_of(psi));
-        const CamPoint at = cam_.shape().at(std::atan2(n.y, n.x));
-        arm = (at.h - at.radius) * n + at.slope * perp(n);
+        const double alpha = std::atan2(near.normal.y, near.normal.x) - value_of(psi);
+        const CamPoint at = cam_.shape().at(alpha);
+        arm = at.position(alpha) - at.radius * unit(alpha);
         frame.radius = at.radius;
     }
     const T c = cos(psi), s = sin(psi), x = arm.x * c - arm.y * s, y = arm.x * s + arm.y * c;

@@ -64,7 +64,7 @@ void Saltation::require_curvature(const Instant& at) {
     constexpr double kSide = 1e-6, kJump = 1e-4;  // [rad]; of ρ, far more than it changes in between
     probe_.set_phase(at.is);
     near_ = probe_.contact(at.t, at.after);
-    const double alpha = std::atan2(near_.normal.y, near_.normal.x) - probe_.cam().angle(at.t);
+    const double alpha = probe_.cam().alpha(at.t, near_.normal);
     const CamShape& cam = probe_.cam().shape();
     if (std::fabs(cam.at(alpha + kSide).radius - cam.at(alpha - kSide).radius) > kJump * near_.disc.radius)
         throw StepFailure(

@@ -154,7 +154,8 @@ static void visit(Visitor& v, Beam& beam) {
 constexpr std::size_t kMostParts = 200;  // segments or arcs of a turn
 
 static void visit(Visitor& v, LawSegment& segment) {
-    v.choice(required("law", "\"cycloidal\""), segment.law, "Law of the motion from rest to rest; dwell: the lever is at rest.");
+    v.choice(required("law", "\"cycloidal\""), segment.law,
+             "Law of the motion from rest to rest; dwell: the lever is at rest.");
     v.number(written_if(segment.law != MotionLaw::dwell, "rise"), segment.rise, dim::kAngle, kAny,
              "Change of the lever's angle over the segment, negative where the lever returns.");
     v.number("over", segment.over, dim::kAngle, kPositive,

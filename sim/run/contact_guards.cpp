@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "sim/cam/motion_law.hpp"
 #include "sim/contact/constants.hpp"
 #include "sim/dynamics/failure.hpp"
 #include "sim/integrate/step_errors.hpp"
@@ -154,21 +154,17 @@ Event ContactGuards::first_event(const Segment& segment) {
 std::optional<double> ContactGuards::first_kink(const Segment& segment) {
     const TurningCam& cam = probe_.system.cam();
     if (cam.shape().kinks().empty()) return std::nullopt;
-    constexpr double kTurn = 2 * std::numbers::pi;
-    const auto alpha = [&](double t) {
-        const Vec2 n = probe_.gap(segment, t).normal;
-        return std::atan2(n.y, n.x) - cam.angle(t);
-    };
-    const double from = alpha(segment.t0), turned = std::remainder(alpha(segment.t1) - from, kTurn);
+    const auto alpha = [&](double t) { return cam.alpha(t, probe_.gap(segment, t).normal); };
+    const double from = alpha(segment.t0), turned = std::remainder(alpha(segment.t1) - from, kFullTurn);
     double nearest = std::fabs(turned), kink = 0;
     for (const double k : cam.shape().kinks()) {
-        const double ahead = std::copysign(1.0, turned) * std::remainder(k - from, kTurn);
+        const double ahead = std::copysign(1.0, turned) * std::remainder(k - from, kFullTurn);
         if (!(ahead > kPassedKink && ahead < nearest)) continue;
         nearest = ahead;
         kink = k;
     }
     if (nearest == std::fabs(turned)) return std::nullopt;
-    const auto beyond = [&](double t) { return std::remainder(alpha(t) - kink, kTurn); };
+    const auto beyond = [&](double t) { return std::remainder(alpha(t) - kink, kFullTurn); };
     const double before = beyond(segment.t0), after = beyond(segment.t1);
     return before * after < 0 ? find_root(beyond, segment.t0, segment.t1, before, after) : segment.t1;
 }

@@ -258,7 +258,7 @@ TEST(CheckProfile, HostileProfilesAreRefusedOrAreOutlines) {
         EXPECT_GT(shape.least_height(), 0) << i;
         EXPECT_TRUE(std::isfinite(shape.largest_radius())) << i;
         EXPECT_LT(shape.largest_reach(), norm(p.cam->centre)) << i;
-        const Lever lever(p, shape);
+        const Lever lever(p);
         EXPECT_FALSE(lever.at(dice.about_zero(10)).foot < 0) << i;
         (void)lever.jump();
     }
