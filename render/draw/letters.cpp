@@ -50,8 +50,6 @@ const Typography& typography(Typefaces typefaces) {
                                            : kSerifLetters;
 }
 
-constexpr guint16 kFaintOpacity = 14417;  // 22 % of 65535
-
 // Runs of Chinese, Japanese and Korean are written by one font, although those of mathematics have a few of the
 // letters.
 void add_cjk_runs(PangoAttrList* attributes, const char* family, const std::string& text) {
@@ -85,11 +83,6 @@ PangoLayout* make_layout(PangoContext* context, const LetterFace& face, const st
     PangoAttrList* attributes = pango_attr_list_new();
     if (tabular) pango_attr_list_insert(attributes, pango_attr_font_features_new("tnum=1"));
     add_cjk_runs(attributes, t.cjk, text);
-    if (face.faint_to > 0) {
-        PangoAttribute* faint = pango_attr_foreground_alpha_new(kFaintOpacity);
-        faint->start_index = static_cast<guint>(face.faint_from), faint->end_index = static_cast<guint>(face.faint_to);
-        pango_attr_list_insert(attributes, faint);
-    }
     pango_layout_set_attributes(layout, attributes);
     pango_attr_list_unref(attributes);
     pango_layout_set_text(layout, text.data(), static_cast<int>(text.size()));
@@ -113,8 +106,7 @@ std::string missing_glyphs(std::string_view text) {
 }  // namespace
 
 std::string LetterFace::key(std::string_view text) const {
-    const double numbers[] = {size, max_width, static_cast<double>(weight) + (italic ? 0.5 : 0),
-                              static_cast<double>(faint_from), static_cast<double>(faint_to)};
+    const double numbers[] = {size, max_width, static_cast<double>(weight) + (italic ? 0.5 : 0)};
     return std::string(reinterpret_cast<const char*>(numbers), sizeof numbers).append(text);
 }
 
@@ -128,9 +120,7 @@ LetterFace face_of(const SetRun& set, const TextStyle& style, Typefaces typeface
                       : symbol && t.light_symbols ? Weight::regular
                                                   : style.weight,
             .italic = symbol,
-            .max_width = style.max_width > 0 && !symbol ? room : 0,
-            .faint_from = set.run.faint_from,
-            .faint_to = set.run.faint_to};
+            .max_width = style.max_width > 0 && !symbol ? room : 0};
 }
 
 std::string drawable(const Fonts& fonts, std::string_view text) {

@@ -60,7 +60,6 @@ struct LetterFace {
     Weight weight = Weight::regular;
     bool italic = false;
     double max_width = 0;                      // > 0: truncated with an ellipsis
-    std::size_t faint_from = 0, faint_to = 0;  // bytes of the text that are nearly transparent
     std::string key(std::string_view text) const;
 };
 LetterFace face_of(const SetRun& run, const TextStyle& style, Typefaces typefaces);

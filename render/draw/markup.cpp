@@ -47,9 +47,7 @@ class Parser {
         const bool joins = !runs_.empty() && style.dots == 0 && is_alike(runs_.back(), style);
         if (!joins) runs_.push_back(std::move(style));
         Run& run = runs_.back();
-        if (faint_ && run.faint_to == 0) run.faint_from = run.text.size();
         run.text += c;
-        if (faint_) run.faint_to = run.text.size();
     }
 
     static bool is_alike(const Run& a, const Run& b) {
@@ -179,10 +177,6 @@ class Parser {
         } else if (take("\\b{")) {
             changed.bold = true;
             sequence(changed, true);
-        } else if (!math_ && take("\\faint{")) {
-            faint_ = true;
-            sequence(changed, true);
-            faint_ = false;
         } else if (!math_ && take("\\color{#")) {
             changed.color = color();
             sequence(changed, true);
@@ -200,7 +194,7 @@ class Parser {
     std::size_t at_ = 0;
     static constexpr int kDeepest = 6;  // deeper ones are too small to read
     int depth_ = 0;
-    bool math_ = false, upright_ = false, faint_ = false;
+    bool math_ = false, upright_ = false;
     std::vector<Run> runs_;
 };
 

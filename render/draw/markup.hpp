@@ -5,7 +5,7 @@
 //   $\dot{θ}$          a dot above, \ddot two
 //   $\frac{a}{b}$      fraction, \sqrt{a} root; $\omega$ and other LaTeX names of Greek letters and signs
 //   \r{…} \b{…}        upright; bold
-//   \color{#0072b2}{…} \faint{…}   in this colour, nearly transparent; both outside dollars
+//   \color{#0072b2}{…}  in this colour; outside dollars
 //   \$ \\ \_ \^        are literal characters.
 //
 // Invalid markup throws std::invalid_argument.
@@ -26,7 +26,6 @@ struct Run {
     int script = 0;                            // −1 below, +1 above
     int dots = 0;                              // above the run
     std::optional<std::uint32_t> color = {};   // 0xrrggbb; none: that of the text
-    std::size_t faint_from = 0, faint_to = 0;  // bytes of the text that are nearly transparent
     std::vector<Run> over = {}, under = {};    // replace the text: a fraction; without `under` a root
     bool operator==(const Run&) const = default;
 };

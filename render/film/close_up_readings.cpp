@@ -11,8 +11,6 @@
 namespace beamcam::render {
 namespace {
 
-constexpr const char *kWidest = "00.0\u00A0mN", *kWidestSigned = "−00.0\u00A0mN";  // of the readings of forces
-
 // Draws a word and a number that ends at `right`; the place of the word does not depend on the number.
 void draw_reading(Canvas& canvas, Vec2 right, const std::string& word, const std::string& number, const char* widest,
                   TextStyle style) {
@@ -58,41 +56,23 @@ void CloseUpReadings::draw(Canvas& canvas, const sim::Pose& pose, double face) c
     draw_reading(canvas, {plot.right(), box.y + 26 * u}, context.translate(deep ? "penetration" : "gap"), amount,
                  "00.0\u00A0mm",
                  {.size = context.heading(), .color = deep ? p.contact : p.motion, .weight = Weight::medium});
-    draw_corner(canvas, pose, face);
+    draw_count(canvas, pose, face);
 }
 
-void CloseUpReadings::draw_corner(Canvas& canvas, const sim::Pose& pose, double face) const {
-    const sim::Nearest& near = *pose.nearest;
+void CloseUpReadings::draw_count(Canvas& canvas, const sim::Pose& pose, double face) const {
     const Palette& p = *context.palette;
     const double u = context.unit;
     const std::string count = context.translate(collision_counter(motion, pose.t));
-    const double room = plot.w - canvas.measure(context.translate("beam"), {.size = context.tick}).w - 40 * u;
-    TextStyle style{.size = context.tick, .color = p.ink, .align = HAlign::right}, strong = style;
-    strong.weight = Weight::medium;
-    const double counted = count.empty() ? 0 : canvas.measure(count, style).w;
-    const bool rubs = !std::holds_alternative<sim::NoFriction>(motion.problem.contact.friction);
-    const char* widest = rubs ? kWidestSigned : kWidest;
-    const double read =
-        canvas.measure(context.translate("friction") + " ", strong).w + canvas.measure(widest, strong).w;
-    const bool has_force = near.touching && near.force > 0 && plot.h >= 120 * u && read <= room;
-    const bool has_count = counted > 0 && counted < room, has_friction = has_force && rubs;
-    if (!has_count && !has_force) return;
-    const auto line = [&](int k) { return plot.y + 2 * u + (1.1 + 1.3 * k) * context.tick; };
-    const double right = plot.right() - 10 * u, wide = std::max(has_count ? counted : 0, has_force ? read : 0) + 8 * u,
-                 bottom = line(has_friction ? 2
-                               : has_force  ? 1
-                                            : 0) +
-                          0.4 * context.tick;
+    const TextStyle style{.size = context.tick, .color = p.ink, .align = HAlign::right};
+    const double room = plot.w - canvas.measure(context.translate("beam"), {.size = context.tick}).w - 40 * u,
+                 wide = canvas.measure(count, style).w;
+    if (count.empty() || wide > room) return;
+    const double line = plot.y + 2 * u + 1.1 * context.tick, bottom = line + 0.4 * context.tick,
+                 right = plot.right() - 10 * u, left = right - wide - 8 * u;
     const Color background = close_up_background(p);
-    const bool over_beam = face > (plot.y + bottom) / 2;
-    canvas.rectangle({right - wide, plot.y + 3 * u, plot.right() - 3 * u - right + wide, bottom - plot.y - 3 * u});
-    canvas.fill(over_beam ? mix(background, p.motion, 0.30) : background);
-    if (has_count) canvas.text({right, line(0)}, count, style);
-    if (has_force)
-        draw_reading(canvas, {right, line(1)}, context.translate("force"), reading(near.force, "N"), widest, strong);
-    if (has_friction)
-        draw_reading(canvas, {right, line(2)}, context.translate("friction"), reading(near.friction, "N"), widest,
-                     strong);
+    canvas.rectangle({left, plot.y + 3 * u, plot.right() - 3 * u - left, bottom - plot.y - 3 * u});
+    canvas.fill(face > (plot.y + bottom) / 2 ? mix(background, p.motion, 0.30) : background);
+    canvas.text({right, line}, count, style);
 }
 
 }  // namespace beamcam::render

@@ -1,4 +1,4 @@
-// The numbers of a close-up: the penetration or the gap, which collision and impact it is, the forces.
+// The numbers of a close-up: the penetration or the gap, and which collision and impact it is.
 #pragma once
 
 #include "render/film/panel.hpp"
@@ -15,8 +15,8 @@ struct CloseUpReadings {
     void draw(Canvas& canvas, const sim::Pose& pose, double face) const;
 
   private:
-    // Up to three lines in the upper right corner, on a plate that hides the line of the beam's face.
-    void draw_corner(Canvas& canvas, const sim::Pose& pose, double face) const;
+    // In the upper right corner, on a plate that hides the line of the beam's face.
+    void draw_count(Canvas& canvas, const sim::Pose& pose, double face) const;
 };
 
 // Of its plot.

@@ -21,7 +21,7 @@ void draw_color_bars(Canvas& canvas, const FilmContext& context) {
     const Box& b = *context.places.scales;
     const TextStyle small{
         .size = 16 * u + 0.4 * (context.tick - 17 * u), .color = palette.muted, .align = HAlign::centre};
-    const std::string moment_title = context.translate("bending moment"),
+    const std::string moment_title = context.translate("bending moment (√ scale)"),
                       trace_title = context.translate("contact force, trace (√ scale)");
     const double wide = std::round(std::max({250 * u, canvas.measure(moment_title, small).w,
                                              context.force_scale > 0 ? canvas.measure(trace_title, small).w : 0}));

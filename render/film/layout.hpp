@@ -18,7 +18,7 @@ inline constexpr double kReadable = 9;  // smallest size of letters in any pictu
 
 // The kinds of panels, in the order of the reference. A new panel is a name in this list and one file, which defines
 // its PanelType in a function of this name with "_panel" behind it.
-#define BEAMCAM_PANELS(entry) entry(mechanism) entry(phase) entry(energy) entry(close_up) entry(strip)
+#define BEAMCAM_PANELS(entry) entry(mechanism) entry(overview) entry(phase) entry(energy) entry(close_up) entry(strip)
 
 #define BEAMCAM_PANEL_KIND(name) name,
 enum class PanelKind { BEAMCAM_PANELS(BEAMCAM_PANEL_KIND) };
@@ -29,7 +29,7 @@ struct PanelSpec {
     std::vector<sim::Channel> channels = {};  // strip: at least one, all of one unit
     std::optional<double> window = {};        // strip, energy: duration of a moving window [s]; absent: the whole film
     bool by_collision = false;                // strip: show one collision after the other
-    int member = 0;                           // mechanism, close-up, energy: index of the motion
+    int member = 0;                           // mechanism, overview, close-up, energy: index of the motion
     bool operator==(const PanelSpec&) const = default;
 };
 

@@ -20,7 +20,7 @@ MechanismCameras::MechanismCameras(const MechanismView& home) : home_(home) {
 void MechanismCameras::follow(const std::vector<Followed>& parts) {
     const FilmSetup& setup = *home_.context.setup;
     const Shot& first = setup.view.shot;
-    if (first.zoom == 1 && first.follow == Anchor{} && setup.moves.empty()) return;
+    if (home_.whole || (first.zoom == 1 && first.follow == Anchor{} && setup.moves.empty())) return;
     shots_ = camera_frames(first, setup.moves, home_.look.camera, home_.box, parts, setup.fps);
 }
 

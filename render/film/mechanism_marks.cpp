@@ -23,6 +23,25 @@ std::vector<Color> rim_colors(const MechanismView& at, const Trace& trace) {
     return out;
 }
 
+// The base line has its name where it is above a beam that bends visibly, in stills and in slow motion, which give time
+// to read it.
+static void name_base_line(const MechanismScene& s, const std::vector<Vec2>& line) {
+    constexpr double kSlow = 0.1;  // of real time
+    const FilmSetup& setup = *s.at.context.setup;
+    const bool slow = setup.speeds.empty() ? setup.frames() == 1 : setup.speeds[std::size_t(s.frame)] <= kSlow;
+    if (!slow || !s.at.labelled()) return;
+    const double size = std::max(s.at.context.tick, kReadable);
+    const Box inside = s.at.box.inset(1.6 * size);
+    std::size_t last = line.size();  // the point nearest to the tip that is drawn and in the view
+    for (std::size_t i = 0; i < line.size(); ++i)
+        if (!std::isnan(line[i].x) && inside.contains({line[i].x, line[i].y, 0, 0})) last = i;
+    if (last == line.size()) return;
+    if (s.px(s.beam.back(last)).y < line[last].y + 0.2 * size || s.px(s.beam.face(last)).y < line[last].y + 0.2 * size)
+        return;
+    s.canvas.text(line[last] - Vec2{0.4 * size, 0.5 * size}, s.at.context.translate("undeflected"),
+                  {.size = size, .color = s.at.palette.muted, .align = HAlign::right});
+}
+
 // The base line of the exaggerated deflection.
 void draw_base_line(const MechanismScene& s) {
     const bool led = sim::is_prescribed(s.at.problem().hub.drive);
@@ -41,6 +60,7 @@ void draw_base_line(const MechanismScene& s) {
         s.canvas.polyline(line);
         s.canvas.stroke({s.at.palette.faint, 1.5 * s.at.unit, {6 * s.at.unit, 7 * s.at.unit}, Cap::butt});
     });
+    name_base_line(s, line);
 }
 
 static Color ink_on_disc(const MechanismScene& s) {
@@ -48,46 +68,6 @@ static Color ink_on_disc(const MechanismScene& s) {
     if (s.view) return s.at.palette.ink;
     if (dark && s.at.context.setup->view.style == Style::flat) return s.at.palette.paper;
     return dark ? rgb(0x14171D) : s.at.palette.steel_edge;
-}
-
-// Smallest size of single letters on a disc, which are recognized more easily than numbers [px].
-static double least_letter(const MechanismView& at) {
-    constexpr double kOfTicks = 0.75;
-    return std::max(kReadable, kOfTicks * at.context.tick);
-}
-
-// B and C are beyond the ends of the line between them or, on a small disc, on its two sides, and inside the disc.
-void draw_disc_letters(const MechanismScene& s) {
-    if (!s.shape.disc || !s.shape.disc->outline.empty()) return;
-    const Color ink = ink_on_disc(s);
-    const DiscShape& d = *s.shape.disc;
-    // On a small disc they keep a readable size; before a near camera they grow with it to their usual size.
-    const double marks = std::min(s.at.unit, s.at.marks * s.at.zoom());
-    const double size = std::max(22 * marks, std::min(least_letter(s.at), 0.5 * d.radius)), letter = size / 22;
-    if (size < kReadable || d.radius < 60 * marks || !s.at.context.setup->view.show.labels) return;
-    const double apart = norm(d.centre - d.axis);
-    const Vec2 along = apart > 2 ? (d.centre - d.axis) * (1 / apart) : Vec2{0, -1}, across{along.y, -along.x};
-    TextStyle style{.size = size, .color = ink, .align = HAlign::centre};
-    // A halo covers the outlines of other discs; it must not cover the pin.
-    if (s.at.ghosts) style.halo = s.at.palette.steel;
-    const auto put = [&](const char* name, Vec2 at) {
-        const Vec2 middle = s.at.seen(at, s.view, kDiscDepth);
-        if (s.at.moved && !s.at.box.inset(12 * letter).contains({middle.x, middle.y, 0, 0}))
-            return;  // cut off by the edge of the panel
-        s.canvas.text(middle + Vec2{0, 7 * letter}, name, style);
-    };
-    const double dot = s.view ? std::max(d.dot, 4 * marks) : 4 * marks;
-    const double beyond = dot + (s.at.ghosts ? 21 : 16) * letter;
-    if (beyond + 13 * letter > norm(d.mark - d.centre) - d.mark_radius) {  // B would touch the mark
-        put("$B$", d.centre - across * (13 * letter));
-        put("$C$", d.axis + across * (d.bore + 12 * letter));
-        return;
-    }
-    put("$B$", d.centre + along * beyond);
-    // The shaft in the solid view needs more space. If C would come near the rim, where contacts and their rings are,
-    // it goes to the side.
-    const double off = d.bore + (s.view ? 24 : 16) * letter;
-    put("$C$", d.axis + (apart + off + 24 * marks <= d.radius ? along * -1 : along * 0.6 + across * 0.8) * off);
 }
 
 void draw_disc_marks(const MechanismScene& s, const Trace& trace) {

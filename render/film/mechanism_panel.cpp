@@ -144,7 +144,6 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
         draw_cam_speed(s);
     }
     rings_.draw(s);
-    draw_disc_letters(s);  // over the rings, which would make them hard to read
     draw_force(s);
 }
 
@@ -168,6 +167,10 @@ bool MechanismPanel::animates_while_paused(int frame) const { return cameras_.mo
 PanelType mechanism_panel() {
     return {
         .kind = PanelKind::mechanism, .name = "mechanism", .smallest = {16, 16}, .make = make_panel<MechanismPanel>};
+}
+
+PanelType overview_panel() {
+    return {.kind = PanelKind::overview, .name = "overview", .smallest = {16, 16}, .make = make_panel<MechanismPanel>};
 }
 
 }  // namespace beamcam::render

@@ -13,7 +13,8 @@ MechanismView::MechanismView(const FilmContext& all, const PanelSlot& slot)
       member(std::min(slot.spec.member, all.members() - 1)),
       ghosts(all.members() > 1 && all.setup->comparison == Comparison::ghosts),
       unit(all.unit),
-      small(is_small(slot.box, all.unit)) {
+      small(is_small(slot.box, all.unit)),
+      whole(slot.spec.kind == PanelKind::overview) {
     // Several mechanisms have the same scale, so that they can be compared.
     look.unit = unit;
     look.factor = all.factor;

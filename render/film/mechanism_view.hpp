@@ -28,6 +28,7 @@ struct MechanismView {
     double unit;       // size of a design pixel of lines and letters [px]
     double marks = 1;  // the same for marks on the mechanism (mark_unit) [px]
     bool small;
+    bool whole;  // the camera does not move: it shows everything
     bool labelled() const { return !small && context.setup->view.show.labels; }
     MechanismLook look;
     double wide;  // width of the beam across the plane of motion, in the solid view [px]

@@ -19,9 +19,7 @@ using sim::Channel;
 using sim::ChannelKind;
 using sim::Pose;
 
-// False if contacts are impulses and no lasting contact follows.
 bool has_force(const Motion& motion) {
-    if (!motion.problem.cam || motion.problem.contact.model != sim::ContactModel::restitution) return true;
     const auto* force = column(motion.chart, {ChannelKind::contact_force, 0});
     return force && std::ranges::any_of(*force, [](double v) { return v > 0; });
 }
@@ -53,7 +51,7 @@ std::vector<PanelSpec> standard_panels(const sim::Problem& problem, bool slow_mo
     PanelSpec force = strip(ChannelKind::contact_force);
     force.by_collision = slow_motion;
     if (slow_motion) return {strip(ChannelKind::theta), force, {.kind = PanelKind::close_up}};
-    return {strip(ChannelKind::theta), strip(ChannelKind::contact_force), strip(ChannelKind::contact_x)};
+    return {strip(ChannelKind::theta), force};
 }
 
 std::vector<Channel> chart_channels(const std::vector<PanelSpec>& panels) {
@@ -111,7 +109,8 @@ FilmContext::FilmContext(std::shared_ptr<const FilmSetup> s) : setup(std::move(s
     choose_scales();
     const int mechanisms = setup->comparison == Comparison::panels ? members() : 1;
     if (setup->layout) places = layout(setup->width, setup->height, *setup->layout, shown);
-    if (!setup->layout || places.first(PanelKind::mechanism)) extent = view_extent_of(*this);
+    if (!setup->layout || places.first(PanelKind::mechanism) || places.first(PanelKind::overview))
+        extent = view_extent_of(*this);
     if (!setup->layout) places = layout(setup->width, setup->height, standard(*setup), mechanisms, extent, shown);
     unit = places.unit;
     tick = places.tick;

@@ -55,6 +55,7 @@ class CollisionPanel final : public FilmPanel {
         }
         content_ = strip_content(context, spec_);
         content_.panel.events.clear();
+        content_.past_only = context.frames() > 1;  // the picture of a touch shows the force that follows
         curves_ = std::exchange(content_.panel.series, {});
     }
 

@@ -214,7 +214,8 @@ MechanismShape mechanism_shape(const sim::Problem& problem, const sim::Pose& pos
         s.face.push_back(look.camera.to_pixels(beam.face(i)));
         s.back.push_back(look.camera.to_pixels(beam.back(i)));
         const bool colored = look.moment_scale > 0 && i < pose.moment.size();
-        s.colors.push_back(colored ? moment_color(p, pose.moment[i] / look.moment_scale) : moment_color(p, 0));
+        const double share = colored ? pose.moment[i] / look.moment_scale : 0;
+        s.colors.push_back(moment_color(p, std::copysign(std::sqrt(std::abs(share)), share)));
     }
     s.hinge = look.camera.to_pixels({0, 0});
     s.hub = hub_radius(problem, look.camera, look.unit);

@@ -44,7 +44,7 @@ struct MechanismLook {
     double unit = 1;          // size of a design pixel of hub, bore and chamfers, which grow with the zoom [px]
     double factor = 1;        // exaggeration of deflection
     double depth = 0;         // drawn depth of the beam [m]
-    double moment_scale = 0;  // end of the colour scale; 0: no colouring [N m]
+    double moment_scale = 0;  // end of the colours' √ scale; 0: no colouring [N m]
 };
 
 MechanismShape mechanism_shape(const sim::Problem& problem, const sim::Pose& pose, const DrawnBeam& beam,

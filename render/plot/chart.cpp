@@ -62,7 +62,7 @@ void Chart::draw_background(Canvas& canvas) const {
                     {.size = 19 * style_.unit, .color = palette_.muted, .align = HAlign::centre, .max_width = plot.w});
     if (!windowed()) {
         plot_.draw_x_axis(canvas);
-        plot_.draw_data(canvas, whole(false));
+        if (!c_.past_only) plot_.draw_data(canvas, whole(false));
     }
     plot_.draw_frame(canvas);
 }

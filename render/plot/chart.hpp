@@ -21,6 +21,7 @@ Range window_around(double t, double length);  // the time that a moving window 
 struct ChartContent {
     std::string words = {};             // before the name of y, if there is space: "Contact point on the beam "
     std::string short_words = {};       // otherwise these, if there is space: "Contact point "
+    bool past_only = false;             // the curves are drawn up to the cursor
     std::string instead = {};           // text that replaces the axis if there are no values: "no contact"
     figure::Panel panel = {};           // x is time [s]
     std::optional<double> window = {};  // [s]

@@ -231,10 +231,8 @@ TimeFormat time_format(const std::vector<double>& times, double latest) {
 std::string clock_text(const TimeFormat& format, double t, double last) {
     const std::string number = fixed(t / format.unit, format.decimals);
     const std::string longest = fixed(last / format.unit, format.decimals);
-    // Faint zeros reserve the room of later digits.
-    std::string room;
-    if (number.size() < longest.size())
-        room = fmt::format("\\faint{{{}}}", std::string(longest.size() - number.size(), '0'));
+    std::string room;  // of later digits
+    for (std::size_t i = number.size(); i < longest.size(); ++i) room += "\u2007";
     return fmt::format("$t$\u2009=\u2009{}{}\u00A0{}", room, number, format.symbol);
 }
 

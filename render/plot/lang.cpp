@@ -10,7 +10,7 @@ namespace beamcam::render {
 namespace {
 
 constexpr std::string_view kHole = "{}";  // in a phrase: any text without a separator
-constexpr std::string_view kSeparators[] = {" · ", ", "};
+constexpr std::string_view kSeparators[] = {" · ", ": ", ", "};
 
 // The same number of holes in both, in the same order, or with numbers: {0}, {1}. The first phrase that is the whole
 // text counts.
@@ -22,7 +22,27 @@ constexpr Phrase kPhrases[] = {
     {"contact force, trace (√ scale)", "接触力（轨迹，√ 标度）"},
     {"Contact close-up", "接触点放大"},
     {"Contact", "接触"},
-    {"bending moment", "弯矩"},
+    {"bending moment (√ scale)", "弯矩（√ 标度）"},
+    {"undeflected", "未变形"},
+    {"falls under gravity", "在重力作用下下落"},
+    {"touches {} from the hub", "触点距轮毂 {}"},
+    {"at {}", "速度 {}"},
+    {"{} after the touch", "接触后 {}"},
+    {"lifts off after {} and {}", "历时 {}、{}后分离"},
+    {"lifts off after {}", "历时 {} 后分离"},
+    {"{} at the touch", "接触时 {}"},
+    {"{} from the cam", "来自凸轮 {}"},
+    {"{} from the drive", "来自驱动 {}"},
+    {"{} from the fall", "来自下落 {}"},
+    {"{} rebound", "反弹 {}"},
+    {"{} vibration", "振动 {}"},
+    {"{} lost", "耗散 {}"},
+    {"{} to the cam", "传给凸轮 {}"},
+    {"{} to the drive", "传给驱动 {}"},
+    {"{} impacts in {}", "{} 次冲击，历时 {}"},
+    {"{} impacts", "{} 次冲击"},
+    {"{} impact", "{} 次冲击"},
+    {"stays in contact from {} on", "自 {} 起保持接触"},
     {"heights in {}", "高度单位 {}"},
     {"{} against widths", "{}（相对水平方向）"},
     {"energy closes to {}", "能量误差 {}"},
@@ -73,7 +93,6 @@ constexpr Phrase kPhrases[] = {
     {"contact", "接触能"},
     {"Energy", "能量"},
     {"lost", "耗散"},
-    {"force", "力"},
     {"peak", "峰值"},
     {"no contact", "无接触"},
     {"impulses only", "仅有冲量"},

@@ -75,7 +75,7 @@ void print_schema(const SchemaArguments& args) {
 
 void add_init(Grammar& grammar) {
     const auto [app, args] = grammar.command<InitArguments>("init", "Write a scene with comments to start from", act);
-    app.examples = {"init fall", "init slow --from slow-motion"};
+    app.examples = {"init fall", "init fast --from fast-cam"};
     app.positional("NAME", &args.name,
                    "Name of the new file (default: scene, or the name of the example); - is standard output");
     app.option("--from", &args.from, "EXAMPLE", "Copy this example; `beamcam examples` lists all");

@@ -82,6 +82,8 @@ Output with_options(const RenderArguments& args, const Output& base, const Scene
     add(node, "file", std::filesystem::path(args.file).filename().string());
     if (args.film.value("--speed")) remove(node, "duration");
     if (args.film.value("--duration")) remove(node, "speed");
+    if (args.film.value("--story"))
+        for (const char* key : {"to", "speed", "duration", "hold", "events", "layout"}) remove(node, key);
     KeyOptions film = args.film;
     if (const std::string* theme = film.value("--theme");
         theme && *theme == "print" && std::holds_alternative<FigureOutput>(base))
@@ -157,6 +159,7 @@ void add_key_options(Command& app, RenderArguments& args) {
     args.film.add(app, "--fps", "fps", "RATE");
     args.film.add(app, "--speed", "speed", "S");
     args.film.add(app, "--duration", "duration", "T");
+    args.film.add(app, "--story", "story", "STORY");
     args.film.add(app, "--style", "view.style", "STYLE");
     args.film.add(app, "--theme", "theme", "THEME");
     args.film.add(app, "--background", "background", "COLOUR");

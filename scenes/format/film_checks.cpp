@@ -82,6 +82,9 @@ void check_end(ObjectReader& r, const char* key, double t) {
 }
 
 void check_span(ObjectReader& r, const FrameSpan& span, const Picture& picture) {
+    if (span.story && !picture.compare.empty())
+        r.reject("story", " tells one motion, but the film compares {}; remove \"story\" or \"compare\"",
+                 picture.compare.size());
     const Diagnostics& diagnostics = r.diagnostics();
     if (diagnostics.failed(r.path("from")) || diagnostics.failed(r.path("to")) || diagnostics.failed("time")) return;
     if (const std::string problem = problem_with_span(span, r.context().scene.end_time); !problem.empty())

@@ -176,7 +176,7 @@ void visit_span(SceneVisitor& v, FrameSpan& span) {
         "Frames per second, 0.1 to 1000, or a fraction such as \"30000/1001\", which is also the meaning of 29.97.");
     visit_bounds(v, span);
     v.value(
-        written_if(!span.duration, "speed"), speed_format(span.speed),
+        written_if(!span.duration && !span.story, "speed"), speed_format(span.speed),
         "Playback speed: a factor, where 1 is real time; \"impacts\": slow motion around impacts; or an object with "
         "the details.",
         SceneVisitor::keys_of(span.speed));
@@ -185,7 +185,12 @@ void visit_span(SceneVisitor& v, FrameSpan& span) {
     v.exclusive("speed", "duration");
     v.number(written_if(span.hold > 0, "hold"), span.hold, dim::kTime, kNotNegative,
              "The last picture freezes for this time, in film time.");
-    v.list("events", SceneVisitor::items_of(span.events), "Freezes and texts of the film at instants.");
+    v.list(written_if(!span.story, "events"), SceneVisitor::items_of(span.events), "Freezes and texts of the film at instants.");
+    v.choice("story", span.story,
+             "impact: the film tells the first collision after \"from\", from the fall to the rebound, with slow motion, "
+             "freezes, texts, a camera that moves closer, and a layout; settle: it tells how the motion comes to a "
+             "contact that lasts, with time-lapse.");
+    for (const char* key : {"to", "speed", "duration", "hold", "events"}) v.exclusive("story", key);
 }
 
 }  // namespace beamcam::scenes

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "render/base/error.hpp"
+#include "scenes/plan/story.hpp"
 #include "scenes/scene/time_map.hpp"
 
 namespace beamcam::scenes {
@@ -128,6 +129,7 @@ bool ends_at_event(const PictureOutput& p) { return p.kind != PictureOutput::Kin
 
 Search search_of(const PictureOutput& p, const Scene& scene) {
     std::vector<Instant> named = p.span.instants();
+    if (p.span.story) named.push_back({.kind = Instant::Kind::apex});
     named.push_back(p.at);
     for (const Keyframe& key : p.view.keyframes) named.push_back(key.at);
     return {.until = end_of(p, scene),
@@ -223,6 +225,7 @@ ResolvedOutput resolved_output(std::size_t index, const Scene& scene, OwnEvents&
         p.at = {.kind = Instant::Kind::time, .t = scene.end_time};
     if (events && !p.compare.empty()) return resolved_comparison(index, p, scene, find);
     const sim::Result& motion = events ? own.get() : kNoEvents;
+    if (p.span.story) p = told(std::move(p), scene, motion, find);
     return resolved_picture(index, std::move(p), scene, motion, motion.impacts);
 }
 

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -105,6 +106,13 @@ struct View : render::View {
     std::vector<Keyframe> keyframes = {};
 };
 
+// What a film tells of a motion with collisions; see plan/story.hpp.
+enum class Story { impact, settle };
+inline std::span<const sim::Named<Story>> names(Story) {
+    static constexpr sim::Named<Story> all[] = {{Story::impact, "impact"}, {Story::settle, "settle"}};
+    return all;
+}
+
 // The keys of all pictures.
 struct Picture {
     Size size;
@@ -124,12 +132,13 @@ struct FrameSpan {
     std::optional<double> to = {};  // [s], > from; nullopt: the end of the scene
     Speed speed = {};
     std::optional<double> duration = {};  // of the film with its freezes, in place of a speed [s], > 0
+    std::optional<Story> story = {};      // in place of speed, duration, hold, events and `to`
     double hold = 0;                      // duration of the last picture [s]
     std::vector<FilmEvent> events = {};
     std::optional<Instant> from_event = {}, to_event = {};  // in place of `from` and `to`
     std::optional<Instant> poster = {};                     // of a video: the frame that is also written as a picture
 
-    bool real_time() const { return speed.real_time() && events.empty() && !duration && hold == 0; }
+    bool real_time() const { return speed.real_time() && events.empty() && !duration && hold == 0 && !story; }
     std::vector<Instant> instants() const;  // all that its keys name
     bool needs_events() const;              // the frames depend on events
 };

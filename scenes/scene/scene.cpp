@@ -95,7 +95,9 @@ std::vector<Instant> FrameSpan::instants() const {
     return all;
 }
 
-bool FrameSpan::needs_events() const { return speed.around || std::ranges::any_of(instants(), &Instant::is_event); }
+bool FrameSpan::needs_events() const {
+    return story || speed.around || std::ranges::any_of(instants(), &Instant::is_event);
+}
 
 PictureOutput default_film(const Scene& scene) {
     PictureOutput film;

@@ -781,45 +781,6 @@ TEST(Strips, AWindowInAStillHasItsOwnRange) {
     EXPECT_LT(range(20, 0.02), 0.8 * range(20, {}));  // the chart also contains the motion before the film
 }
 
-// A film of one pose in contact with dry friction.
-static FilmSetup rubbing_film(double friction, PanelSpec panel) {
-    FilmSetup setup = test::flat_film({.duration = 0.1}, 1280, 720);
-    setup.problem.contact.friction = sim::CoulombFriction{0.2, 1e-3};
-    setup.poses.assign(1, test::synthetic_pose(setup.problem, {}, 1.99));
-    setup.poses[0].t = 0.05;  // within the rows of the strip
-    sim::Nearest& near = *setup.poses[0].nearest;
-    near.touching = true, near.gap = -1e-5, near.force = 100, near.friction = friction;
-    setup.chart.channels.push_back({ChannelKind::friction_force, 0});
-    setup.chart.values.emplace_back(setup.chart.values[0].size(), friction);
-    setup.chart.values.back().front() = -friction;  // the axis is the same for either sign
-    setup.layout = leaf(std::move(panel));
-    return setup;
-}
-
-// In either panel the reading, and no other text, is wider by a minus where the force points towards −x.
-TEST(CloseUp, StatesTheSignOfTheFrictionAsItsStripDoes) {
-    for (const PanelSpec& panel : {PanelSpec{.kind = PanelKind::close_up}, strip(ChannelKind::friction_force)}) {
-        const std::vector<Box> ahead = Film(rubbing_film(22.1, panel)).geometry(0).texts,
-                               back = Film(rubbing_film(-22.1, panel)).geometry(0).texts;
-        int wider = 0;
-        ASSERT_EQ(ahead.size(), back.size());
-        for (std::size_t i = 0; i < ahead.size(); ++i) {
-            wider += back[i].w > ahead[i].w + 2;
-            EXPECT_GT(back[i].w, ahead[i].w - 2) << i;
-        }
-        EXPECT_EQ(wider, 1) << int(panel.kind);
-    }
-}
-
-// The word "force" stays where it is while the friction passes through zero.
-TEST(CloseUp, KeepsItsWordsWhereTheFrictionIsZero) {
-    const PanelSpec panel{.kind = PanelKind::close_up};
-    const std::vector<Box> some = Film(rubbing_film(22.1, panel)).geometry(0).texts,
-                           none = Film(rubbing_film(0, panel)).geometry(0).texts;
-    ASSERT_EQ(some.size(), none.size());
-    EXPECT_EQ(std::ranges::count_if(some, [&](const Box& b) { return std::ranges::find(none, b) == none.end(); }), 1);
-}
-
 // Arrows are proportional to the force, in the mechanism and in the close-up.
 TEST(ForceArrows, AreInProportionToTheForce) {
     for (const PanelKind kind : {PanelKind::mechanism, PanelKind::close_up}) {

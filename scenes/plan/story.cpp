@@ -1,0 +1,217 @@
+#include "scenes/plan/story.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "render/base/error.hpp"
+#include "render/plot/lang.hpp"
+#include "render/plot/ticks.hpp"
+#include "scenes/scene/time_map.hpp"
+#include "sim/base/counted.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using render::LayoutNode, render::PanelKind, render::PanelSpec, render::quantity;
+using sim::ChannelKind;
+
+constexpr double kShown = 3, kFade = 0.2;  // of captions [s of the film]
+
+Instant at_time(double t) { return {.kind = Instant::Kind::time, .t = t}; }
+
+// The speed 1, 2 or 5 times a power of ten, nearest in ratio, at which this time lasts `seconds` of the film. Real time
+// is kept if the film then lasts between two thirds of that and one and a half times it.
+double speed_for(double time, double seconds) {
+    const double exact = time / seconds;
+    if (exact > 2.0 / 3 && exact < 1.5) return 1;
+    const double below = render::round_down_125(exact), above = render::round_up_125(exact);
+    return exact / below < above / exact ? below : above;
+}
+
+// Appends a caption in the language of the film.
+void tell(PictureOutput& film, double t, std::string text, double freeze = 0) {
+    film.span.events.push_back({.at = at_time(t),
+                                .freeze = freeze,
+                                .text = render::in(film.view.lang, std::move(text)),
+                                .show = kShown,
+                                .fade = kFade});
+}
+
+LayoutNode leaf(PanelSpec spec, double share = 1) { return {.share = share, .panel = std::move(spec)}; }
+LayoutNode group(LayoutNode::Kind kind, std::vector<LayoutNode> parts, double share = 1) {
+    return {.kind = kind, .share = share, .children = std::move(parts)};
+}
+
+// A sentence about the start, where it is true for certain; else empty.
+std::string beginning(const sim::Problem& problem, double from) {
+    const bool free = std::holds_alternative<sim::FreeDrive>(problem.hub.drive) && !problem.hub.spring;
+    const bool falls = free && problem.gravity > 0 && problem.initial.angular_velocity == 0;
+    return falls && from == 0 ? "falls under gravity" : "";
+}
+
+std::string touch_of(const sim::Collision& c) {
+    return fmt::format("touches {} from the hub, at {}", quantity(c.x, "m"), quantity(std::abs(c.v_n_before), "m/s"));
+}
+
+const sim::Collision& collision_after(double from, const sim::Result& motion) {
+    const auto found = std::ranges::find_if(motion.collisions, [&](const auto& c) { return c.t_start > from; });
+    if (found == motion.collisions.end())
+        throw render::PictureError(
+            fmt::format("the story needs a collision, but the motion has none between {:g} s and {:g} s; a larger "
+                        "time.end may have one",
+                        from, motion.end_time));
+    return *found;
+}
+
+// ---- "impact" ----------------------------------------------------------------------------------
+
+// What became, at the apex of the rebound, of the energy of the touch and of what cam, drive and fall have added.
+std::string energy_at_apex(double touch, double apex, const sim::Problem& problem, const FindEvents& find) {
+    using enum ChannelKind;
+    sim::Request request;
+    request.end_time = apex;
+    sim::TableRequest& table = request.tables.emplace_back();
+    table.times = {std::nextafter(touch, 0), apex};  // before the impulse of a touch without duration
+    for (const ChannelKind kind : {energy_kinetic, energy_elastic, energy_contact, energy_potential, energy_spring,
+                                   loss_structural, loss_contact, loss_friction, loss_hub, work_cam, work_drive})
+        table.channels.push_back({kind, 0});
+    const sim::Table found = find(problem, request).tables.front();
+    using Kinds = std::initializer_list<ChannelKind>;
+    const auto sum = [&](Kinds kinds, std::size_t row) {
+        double all = 0;
+        for (std::size_t c = 0; c < found.channels.size(); ++c)
+            if (std::ranges::find(kinds, found.channels[c].kind) != kinds.end()) all += found.values[c][row];
+        return all;
+    };
+    const auto gained = [&](Kinds kinds) { return sum(kinds, 1) - sum(kinds, 0); };
+    const Kinds moving{energy_kinetic, energy_elastic, energy_contact};
+    const double rebound = gained({energy_potential, energy_spring}), cam = gained({work_cam}),
+                 drive = gained({work_drive});
+    struct Part {
+        double size;
+        const char* name;
+    };
+    const Part sources[] = {{sum(moving, 0), "at the touch"},
+                            {cam, "from the cam"},
+                            {drive, "from the drive"},
+                            {-rebound, "from the fall"}},
+               uses[] = {{rebound, "rebound"},
+                         {sum(moving, 1), "vibration"},
+                         {gained({loss_structural, loss_contact, loss_friction, loss_hub}), "lost"},
+                         {-cam, "to the cam"},
+                         {-drive, "to the drive"}};
+    double all = 0;
+    for (const Part& each : sources) all += std::max(each.size, 0.0);
+    std::string from, to;
+    for (const Part& each : sources)  // parts below half a percent are left out
+        if (each.size > 0.005 * all)
+            from += fmt::format("{}{} {}", from.empty() ? "" : ", ", quantity(each.size, "J"), each.name);
+    for (const Part& each : uses)
+        if (each.size > 0.005 * all)
+            to += fmt::format("{}{:.0f} % {}", to.empty() ? "" : ", ", 100 * each.size / all, each.name);
+    return from + ": " + to;
+}
+
+// The mechanism from near, the whole of it, the contact in micrometres, and the force of the collision.
+LayoutNode impact_layout(bool has_force, const Size& size) {
+    using enum LayoutNode::Kind;
+    const LayoutNode near = leaf({.kind = PanelKind::mechanism}, 2.6), overview = leaf({.kind = PanelKind::overview});
+    if (!has_force) return group(columns, {near, overview});
+    const LayoutNode contact = leaf({.kind = PanelKind::close_up});
+    const LayoutNode force =
+        leaf({.kind = PanelKind::strip, .channels = {{ChannelKind::contact_force, 0}}, .by_collision = true});
+    if (size.width < size.height) return group(rows, {near, group(columns, {overview, contact}, 1.4), force});
+    return group(rows, {group(columns, {near, group(rows, {overview, contact})}, 2.4), force});
+}
+
+PictureOutput told_impact(PictureOutput film, const Scene& scene, const sim::Result& motion, const FindEvents& find) {
+    constexpr double kApproach = 2.5, kCollision = 3, kHold = 2.5;     // durations in the film [s]
+    constexpr double kAtTouch = 0.8, kAtPeak = 1.5, kAtLiftoff = 1.5;  // freezes [s]
+    constexpr double kNear = 2, kMove = 1.2;                           // zoom; duration of the camera's movement [s]
+    FrameSpan& span = film.span;
+    const sim::Collision& c = collision_after(span.from, motion);
+    const double touch = c.t_start, liftoff = c.t_end.value_or(motion.end_time), length = liftoff - touch;
+    const double next = (&c == &motion.collisions.back()) ? motion.end_time : (&c + 1)->t_start;
+    const std::vector<sim::Apex> apexes = sim::rebounds(motion);
+    const auto apex = std::ranges::find_if(apexes, [&](const sim::Apex& a) { return a.t > liftoff && a.t < next; });
+    const bool rebounds = apex != apexes.end();
+    span.to = rebounds ? apex->t : std::min(next, liftoff + std::max(length, touch - span.from));
+
+    span.speed = {.factor = speed_for(touch - span.from + *span.to - liftoff, kApproach)};
+    const double slow = length > 0 ? speed_for(length, kCollision) : span.speed.factor;
+    if (slow < span.speed.factor) {
+        span.speed.intervals = {{at_time(std::max(span.from, touch - 0.05 * length)),
+                                 at_time(std::min(*span.to, liftoff + 0.05 * length)), slow}};
+        span.speed.ease = length;
+    }
+    if (const std::string text = beginning(scene.problem, span.from); !text.empty()) tell(film, span.from, text);
+    tell(film, touch, touch_of(c), kAtTouch);
+    if (c.t_peak && c.force_peak)
+        tell(film, *c.t_peak,
+             fmt::format("{}, {} after the touch", quantity(*c.force_peak, "N"), quantity(*c.t_peak - touch, "s")),
+             kAtPeak);
+    if (c.t_end && length > 0)
+        tell(film, liftoff,
+             "lifts off after " + quantity(length, "s") + (c.count > 1 ? " and " + counted(c.count, "impact") : ""),
+             kAtLiftoff);
+    if (rebounds)
+        tell(film, *span.to, energy_at_apex(touch, *span.to, scene.problem, find), kHold);
+    else
+        span.hold = kHold;
+    film.view.keyframes = {
+        {.at = at_time(touch), .zoom = kNear, .follow = render::Anchor{render::Anchor::Kind::contact}, .over = kMove},
+        {.at = at_time(*span.to), .zoom = 1, .follow = render::Anchor{}, .over = kMove}};
+    if (!film.layout) film.layout = impact_layout(c.force_peak.has_value(), film.size);
+    return film;
+}
+
+// ---- "settle" ----------------------------------------------------------------------------------
+
+PictureOutput told_settle(PictureOutput film, const Scene& scene, const sim::Result& motion) {
+    constexpr double kFirst = 4, kMiddle = 5, kLast = 3, kHold = 1;  // durations of the parts in the film [s]
+    constexpr std::size_t kBounces = 3;                              // collisions in the first part
+    FrameSpan& span = film.span;
+    const sim::Collision& first = collision_after(span.from, motion);
+    const sim::Impact& last = motion.impacts.back();
+    if (last.t_end)
+        throw render::PictureError(
+            fmt::format("the story \"settle\" needs a contact that lasts, but the motion has none at the end, {:g} s; "
+                        "a larger time.end may have one",
+                        motion.end_time));
+    const double settled = last.t_start;
+    const auto bounces = std::ranges::count_if(
+        motion.impacts, [&](const sim::Impact& i) { return i.t_start >= first.t_start && i.t_start < settled; });
+    const std::size_t before = static_cast<std::size_t>(&first - motion.collisions.data());
+    const double slow_until =
+        before + kBounces < motion.collisions.size() ? motion.collisions[before + kBounces].t_start : settled;
+    const double speed = scene.problem.cam ? std::abs(scene.problem.cam->speed) : 0;
+    span.to = std::min(motion.end_time, settled + (speed > 0 ? 2 * std::numbers::pi / speed : settled - span.from));
+    const auto part = [&](double from, double to, double seconds) {
+        if (to > from) span.speed.intervals.push_back({at_time(from), at_time(to), speed_for(to - from, seconds)});
+    };
+    part(span.from, slow_until, kFirst);
+    part(slow_until, settled, kMiddle);
+    part(settled, *span.to, kLast);
+    span.hold = kHold;
+    if (const std::string text = beginning(scene.problem, span.from); !text.empty()) tell(film, span.from, text);
+    tell(film, first.t_start, touch_of(first));
+    if (slow_until < settled)
+        tell(film, slow_until,
+             fmt::format("{} in {}", counted(bounces, "impact"), quantity(settled - first.t_start, "s")));
+    tell(film, settled, fmt::format("stays in contact from {:.4g} s on", settled));
+    return film;
+}
+
+}  // namespace
+
+PictureOutput told(PictureOutput film, const Scene& scene, const sim::Result& motion, const FindEvents& find) {
+    const Story story = *std::exchange(film.span.story, {});
+    film.span = with_times(film.span, motion);
+    return story == Story::impact ? told_impact(std::move(film), scene, motion, find)
+                                  : told_settle(std::move(film), scene, motion);
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,119 @@
+#include "scenes/plan/story.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "render/base/error.hpp"
+#include "sim/run/simulate.hpp"
+#include "tests/scenes/support.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::read;
+
+// The film of a scene with this story, after its events are known.
+ResolvedOutput film_of(const std::string& mechanics, const std::string& story, const std::string& keys = "") {
+    const Reading reading = read("{" + mechanics + R"("outputs": [{"type": "video", "file": "a.mp4", "story": ")" +
+                                 story + "\"" + keys + "}]}");
+    EXPECT_TRUE(reading.scene) << reading.report();
+    return resolve(*reading.scene, [](const sim::Problem& problem,
+                                      const sim::Request& request) { return sim::simulate(problem, request); })
+        .outputs.at(0);
+}
+
+sim::Result motion_of(const std::string& mechanics, double end) {
+    sim::Request request;
+    request.end_time = end;
+    return sim::simulate(read("{" + mechanics + R"("outputs": []})").scene->problem, request);
+}
+
+std::vector<std::string> texts(const ResolvedOutput& film) {
+    std::vector<std::string> all;
+    for (const render::Callout& each : film.times.callouts) all.push_back(each.text);
+    return all;
+}
+
+double shown_at(const ResolvedOutput& film, const std::string& text) {
+    for (const render::Callout& each : film.times.callouts)
+        if (each.text.find(text) != std::string::npos) return film.times.frames.at(std::size_t(each.first));
+    ADD_FAILURE() << "no caption with " << text;
+    return -1;
+}
+
+const std::string kFlexible = R"("beam": {"modes": 4}, "time": {"end": 1}, )";
+// A rod that falls on a cam at rest, with a coefficient of restitution of one half.
+const std::string kRigid = R"("beam": {"model": "rigid"}, "cam": {"speed": 0}, "time": {"end": 3}, )"
+                           R"("contact": {"model": "restitution", "restitution": 0.5}, )";
+
+TEST(Story, ImpactTellsTheEventsOfTheFirstCollision) {
+    const ResolvedOutput film = film_of(kFlexible, "impact");
+    const sim::Collision c = motion_of(kFlexible, 1).collisions.at(0);
+    const auto near = [](double t) { return ::testing::DoubleNear(t, 1e-3); };
+    EXPECT_THAT(shown_at(film, "touches 250"), near(c.t_start));
+    EXPECT_THAT(shown_at(film, "after the touch"), near(*c.t_peak));
+    EXPECT_THAT(shown_at(film, "lifts off after"), near(*c.t_end));
+    EXPECT_THAT(shown_at(film, "rebound"), near(film.end_time));
+    EXPECT_GT(film.end_time, *c.t_end);
+    EXPECT_LT(film.end_time, motion_of(kFlexible, 1).collisions.at(1).t_start);
+    const double seconds = double(film.times.frames.size()) / 60;
+    EXPECT_GT(seconds, 8);
+    EXPECT_LT(seconds, 20);
+    EXPECT_EQ(film.times.moves.size(), 2u);
+    EXPECT_EQ(*std::ranges::min_element(film.times.speeds), 0);  // it freezes
+}
+
+// Newton's impact law leaves e² = 25 % of the kinetic energy, which becomes height.
+TEST(Story, ImpactTellsWhatBecameOfTheEnergy) {
+    EXPECT_THAT(texts(film_of(kRigid, "impact")).back(), HasSubstr("at the touch: 25 % rebound, 75 % lost"));
+}
+
+TEST(Story, ImpactTellsTheFirstCollisionAfterItsBeginning) {
+    const double second = motion_of(kFlexible, 1).collisions.at(1).t_start;
+    EXPECT_NEAR(shown_at(film_of(kFlexible, "impact", R"(, "from": "apex:1")"), "touches"), second, 1e-3);
+}
+
+TEST(Story, SettleEndsWithAContactThatLasts) {
+    const ResolvedOutput film = film_of(kRigid, "settle");
+    const double settled = motion_of(kRigid, 3).impacts.back().t_start;
+    EXPECT_NEAR(shown_at(film, "stays in contact"), settled, 0.05);
+    EXPECT_GT(film.end_time, settled);
+}
+
+TEST(Story, SpeaksTheLanguageOfThePicture) {
+    for (const std::string& text : texts(film_of(kFlexible, "impact", R"(, "lang": "zh")"))) {
+        for (const char* word : {"touch", "rebound", "lost", "cam", "after", "impact", "gravity"})
+            EXPECT_EQ(text.find(word), std::string::npos) << text;
+    }
+}
+
+std::string reason(const std::string& mechanics, const std::string& story) {
+    try {
+        film_of(mechanics, story);
+    } catch (const render::PictureError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(Story, SaysWhereThereIsNone) {
+    EXPECT_THAT(reason(R"("time": {"end": 0.2}, )", "impact"), HasSubstr("needs a collision, but the motion has none"));
+    EXPECT_THAT(reason(R"("cam": null, "time": {"end": 0.5}, )", "impact"), HasSubstr("has none"));
+    EXPECT_THAT(reason(kFlexible, "settle"), HasSubstr("needs a contact that lasts"));
+}
+
+TEST(Story, ExcludesWhatItMakes) {
+    for (const char* key : {R"("speed": 0.5)", R"("duration": 3)", R"("to": 0.4)", R"("events": [{"at": 0.1}])",
+                            R"("hold": 1)", R"("compare": [{"label": "a"}, {"label": "b"}])"}) {
+        const Reading reading =
+            read(std::string(R"({"outputs": [{"type": "video", "file": "a.mp4", "story": "impact", )") + key + "}]}");
+        EXPECT_FALSE(reading.scene) << key;
+        EXPECT_THAT(reading.report(), HasSubstr("story")) << key;
+    }
+}
+
+}  // namespace
+}  // namespace beamcam::scenes
