@@ -196,7 +196,6 @@ constexpr Phrase kPhrases[] = {
     {"period {} and more", "周期 {} 及以上"},
     {"period {0} turn{1}, {2:g} impact{3}", "周期 {0} 圈，碰撞 {2:g} 次"},
     {"periodic", "周期"},
-    {"quasi-periodic", "准周期"},
     {"random starts", "随机初值"},
     {"rest", "静止"},
     {"same start", "相同初值"},

@@ -22,10 +22,10 @@ struct ClassLook {
     std::uint32_t color;
 };
 constexpr ClassLook kClasses[] = {
-    {AttractorClass::rest, 0xF2F2F2},         {AttractorClass::following, 0xD0D0D0},
-    {AttractorClass::periodic, 0x0072B2},     {AttractorClass::quasi_periodic, 0x009E73},
-    {AttractorClass::chaotic, 0xD55E00},      {AttractorClass::aperiodic, 0xE69F00},
-    {AttractorClass::over_the_top, 0x404040}, {AttractorClass::unsettled, 0xF0E442},
+    {AttractorClass::rest, 0xF2F2F2},      {AttractorClass::following, 0xD0D0D0},
+    {AttractorClass::periodic, 0x0072B2},  {AttractorClass::chaotic, 0xD55E00},
+    {AttractorClass::aperiodic, 0x009E73}, {AttractorClass::over_the_top, 0x404040},
+    {AttractorClass::unsettled, 0xF0E442},
 };
 const ClassLook& look_of(AttractorClass kind) { return *std::ranges::find(kClasses, kind, &ClassLook::kind); }
 

@@ -95,29 +95,13 @@ LargestExponent exponent_of(const Problem& problem, Strobes s) {
     return out;
 }
 
-// By impacts, contact damping or friction; structural damping is not considered.
-bool loses_energy(const Contact& contact) {
-    const bool damped = contact.model == ContactModel::restitution || contact.damping != DampingLaw::none;
-    return (damped && contact.restitution < 1) || !std::holds_alternative<NoFriction>(contact.friction);
-}
-
 // For a motion without a period.                                                                             (S89)
-AttractorClass class_without_period(const Problem& problem, const LargestExponent& exponent, bool near_period) {
-    const bool positive = exponent.value > kSureErrors * exponent.error;
-    if (std::isfinite(exponent.value) && positive && exponent.late_growth > kLateGrowth)
-        return exponent.value > kSureErrors * exponent.error + exponent.doubt ? AttractorClass::chaotic
-                                                                              : AttractorClass::aperiodic;
-    if (near_period) return AttractorClass::unsettled;
-    if (std::isnan(exponent.value)) return AttractorClass::aperiodic;
-    if (!std::isfinite(exponent.value)) return AttractorClass::unsettled;  // −∞ implies a period not yet found
-    // A contracting map of the plane has no invariant closed curve: a rigid beam that loses energy has no torus.
-    const bool rigid = problem.beam.model == ModelKind::rigid;
-    if (rigid && loses_energy(problem.contact)) return AttractorClass::unsettled;
-    const bool zero = std::fabs(exponent.value) < kSureErrors * exponent.error || exponent.value == 0;
-    // On neighbouring tori of a conservative beam the frequencies differ, so differences grow linearly with time.
-    const bool linear = rigid && positive && exponent.late_growth < kLinearGrowth;
-    const bool known = exponent.error * cam_period(problem) < kSmallError;
-    return (zero || linear) && known ? AttractorClass::quasi_periodic : AttractorClass::unsettled;
+AttractorClass class_without_period(const LargestExponent& exponent, bool near_period) {
+    const double sure = kSureErrors * exponent.error;
+    if (exponent.value > sure + exponent.doubt && exponent.late_growth > kLateGrowth) return AttractorClass::chaotic;
+    // A negative exponent implies a period that is not yet found.
+    if (near_period || exponent.value < -sure) return AttractorClass::unsettled;
+    return AttractorClass::aperiodic;
 }
 
 bool nothing_moves(const Problem& problem, const Scale& scale, Strobes s) {
@@ -129,13 +113,12 @@ bool nothing_moves(const Problem& problem, const Scale& scale, Strobes s) {
 }  // namespace
 
 bool has_section(AttractorClass kind) {
-    return kind == AttractorClass::periodic || kind == AttractorClass::quasi_periodic ||
-           kind == AttractorClass::chaotic || kind == AttractorClass::aperiodic;
+    return kind == AttractorClass::periodic || kind == AttractorClass::chaotic || kind == AttractorClass::aperiodic;
 }
 
-Attractor with_exponent(const Problem& problem, Attractor attractor, const LargestExponent& exponent) {
+Attractor with_exponent(Attractor attractor, const LargestExponent& exponent) {
     attractor.exponent = exponent;
-    attractor.kind = class_without_period(problem, exponent, false);
+    attractor.kind = class_without_period(exponent, false);
     return attractor;
 }
 
@@ -177,7 +160,7 @@ Attractor classify(const Problem& problem, const SampledMotion& motion) {
         out.impacts_per_period = impacts(turns - n, turns);
         return out;
     }
-    if (s.size() >= kFewestTurns) out.kind = class_without_period(problem, out.exponent, is_near_period(scale, s));
+    if (s.size() >= kFewestTurns) out.kind = class_without_period(out.exponent, is_near_period(scale, s));
     out.impacts_per_period = impacts(0, turns) / static_cast<double>(turns);
     return out;
 }

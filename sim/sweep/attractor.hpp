@@ -8,25 +8,19 @@
 namespace beamcam::sim {
 
 enum class AttractorClass {
-    rest,            // nothing moves
-    following,       // the beam never leaves the cam
-    periodic,        // (n, m): n turns of the cam, m impacts
-    quasi_periodic,  // no period, and a largest exponent of zero within its error
-    chaotic,         // the largest exponent exceeds three times its error
-    aperiodic,       // no period, or one that depends on rounding, and an unknown or doubtful exponent
-    over_the_top,    // the beam leaves the half plane of the cam
-    unsettled        // the transient is not over, or the integration failed
+    rest,          // nothing moves
+    following,     // the beam never leaves the cam
+    periodic,      // (n, m): n turns of the cam, m impacts
+    chaotic,       // the largest exponent exceeds three times its error
+    aperiodic,     // no period, or one that depends on rounding, and an unknown or doubtful exponent
+    over_the_top,  // the beam leaves the half plane of the cam
+    unsettled      // the transient is not over, or the integration failed
 };
 inline std::span<const Named<AttractorClass>> names(AttractorClass) {
     using enum AttractorClass;
-    static constexpr Named<AttractorClass> all[] = {{rest, "rest"},
-                                                    {following, "following"},
-                                                    {periodic, "periodic"},
-                                                    {quasi_periodic, "quasi-periodic"},
-                                                    {chaotic, "chaotic"},
-                                                    {aperiodic, "aperiodic"},
-                                                    {over_the_top, "over-the-top"},
-                                                    {unsettled, "unsettled"}};
+    static constexpr Named<AttractorClass> all[] = {
+        {rest, "rest"},           {following, "following"},       {periodic, "periodic"},  {chaotic, "chaotic"},
+        {aperiodic, "aperiodic"}, {over_the_top, "over-the-top"}, {unsettled, "unsettled"}};
     return all;
 }
 
@@ -49,7 +43,7 @@ struct Attractor {
 };
 
 // The class of a motion without period, given its exponent.                                                    (S89)
-Attractor with_exponent(const Problem& problem, Attractor attractor, const LargestExponent& exponent);
+Attractor with_exponent(Attractor attractor, const LargestExponent& exponent);
 
 // (S86)–(S89)
 Attractor classify(const Problem& problem, const SampledMotion& motion);

@@ -17,10 +17,7 @@ inline constexpr double kDifferenceNoise = 1e-7;    // of the lift: smaller chan
 inline constexpr double kSettledShare = 0.1;        // of a difference: largest distance of its extrapolated limit
 inline constexpr double kVanishingMismatch = 0.02;  // of the lift: a smaller distance from a period may still vanish
 inline constexpr std::size_t kExponentBlocks = 10;  // blocks of the average
-inline constexpr double kSmallError = 0.02;         // per turn: largest error of an exponent of zero
-// Largest logarithmic growth in the later half if differences grow linearly: ln 2 and a margin.
-inline constexpr double kLinearGrowth = 1.2;
-inline constexpr double kSettledTolerances = 10;  // error of a settled motion, in units of rtol
+inline constexpr double kSettledTolerances = 10;    // error of a settled motion, in units of rtol
 inline constexpr long kLaterTurns = 1000;  // least continuation of a chaotic motion: milliseconds by the closed forms
 inline constexpr double kNearbySpeed =
     1e-10;                                   // of the cam's speed: a change that a period survives, a million roundings

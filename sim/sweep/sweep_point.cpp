@@ -26,7 +26,7 @@ Attractor by_tangents(const Problem& problem, const Sampling& sampling, const Sw
         const Exponents found = lyapunov_exponents(problem, request, progress);
         if (found.lambda.empty()) return point.attractor;  // a rigid beam on a prescribed hub has no tangents
         const double late = found.settled ? found.lambda.front() * found.duration / 2 : kNan;
-        return with_exponent(problem, point.attractor, {found.lambda.front(), found.error.front(), late, found.doubt});
+        return with_exponent(point.attractor, {found.lambda.front(), found.error.front(), late, found.doubt});
     } catch (const SolverError&) {
         return point.attractor;  // the exponent remains unknown
     }
