@@ -275,10 +275,7 @@ ChartContent strip_content(const FilmContext& context, const PanelSpec& spec) {
             c.panel.series.push_back(std::move(curve));
         }
     }
-    if (is_force(first)) {
-        c.reading_unit = unit;
-        c.blank_zeros = context.members() > 1;  // a row of zeros would say nothing
-    }
+    c.blank_zeros = is_force(first) && context.members() > 1;  // a row of zeros would say nothing
     Range values = range_of(context, spec, c.panel.series);
     if (single && dotted) values = add_places(context, shown_time(context, spec), c);
     add_data(context, spec, c, values);

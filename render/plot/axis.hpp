@@ -63,6 +63,8 @@ class AxisMap {
     const std::vector<Tick>& ticks() const { return ticks_; }
     const std::string& label() const { return label_; }    // in the unit of the numbers
     const std::string& common() const { return common_; }  // markup of factor and offset, or empty
+    // The unit of the numbers; empty with a factor or an offset.
+    std::string unit() const { return factor_ == 0 && offset_ == 0 ? told_unit_ : std::string(); }
     // Label, factor and offset in one: "(θ − 0.785 rad) / (10⁻⁶ rad)".
     std::string name() const;
 

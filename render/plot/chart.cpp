@@ -146,18 +146,16 @@ void Chart::draw_heading(Canvas& canvas) const {
                 heading_style());
 }
 
+// In the unit of the axis, with the decimals that its ticks ask for.
 std::string Chart::reading_text(double value) const {
-    if (c_.reading_unit.empty()) return fixed(plot_.y().tick_value(value), digits_);
-    if (value == 0) return quantity(0, prefix_for(c_.values().high), c_.reading_unit.c_str());
-    return reading(value, c_.reading_unit.c_str());
+    const std::string unit = plot_.y().unit();
+    return fixed(plot_.y().tick_value(value), digits_) + (unit.empty() || unit == "°" ? unit : "\u00A0" + unit);
 }
 
 double Chart::widest_reading(Canvas& canvas) const {
     const TextStyle style = reading_style({});
-    if (!c_.reading_unit.empty())
-        return canvas.measure("00.0\u00A0" + (prefix_for(c_.values().high).symbol + c_.reading_unit), style).w;
-    return std::max(canvas.measure(fixed(plot_.y().ends().high, digits_), style).w,
-                    canvas.measure(fixed(plot_.y().ends().low, digits_), style).w);
+    return std::max(canvas.measure(reading_text(c_.values().high), style).w,
+                    canvas.measure(reading_text(c_.values().low), style).w);
 }
 
 // The name before a reading, or alone without its colon.

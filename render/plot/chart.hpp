@@ -25,9 +25,6 @@ struct ChartContent {
     std::string instead = {};           // text that replaces the axis if there are no values: "no contact"
     figure::Panel panel = {};           // x is time [s]
     std::optional<double> window = {};  // [s]
-    // Unit of the readings, which choose their prefix as labels beside the mechanism do; empty: the axis's unit and
-    // prefix.
-    std::string reading_unit = {};
     bool names_first = false;  // rather the names of the curves than their readings, if only one of them has room
     bool blank_zeros = false;  // a reading of zero has no number
 

@@ -97,7 +97,6 @@ TEST(Chart, ForcesThatAreZeroHaveNoReadingBesideThoseOfOtherMotions) {
     ChartContent content;
     content.set_time({0, 1}, 1, "t");
     content.set_values({0, 100}, "F", "N");
-    content.reading_unit = "N";
     content.panel.series.resize(2);
     const Fonts fonts;
     const auto readings = [&](std::vector<double> values, bool of_several_motions = true) {
