@@ -77,8 +77,8 @@ def check_one_way(root):
 
 
 def folders(root):
-    """The folders of each room in the order of README.md, \"Where things are\": they include only those above them."""
-    rows = [line for line in (root / "README.md").read_text(encoding="utf-8").splitlines() if line.startswith("| `")]
+    """The folders of each room in the order of tests/CONTRIBUTING.md, \"Where things are\": they include only those above them."""
+    rows = [line for line in (root / "tests/CONTRIBUTING.md").read_text(encoding="utf-8").splitlines() if line.startswith("| `")]
     named = [folder for row in rows for folder in FOLDER.findall(row.split("|")[1])]
     return {room: [name for at, name in named if at == room] for room in ROOMS}
 
@@ -98,7 +98,7 @@ def check_folders(root):
             rank = folder_of(order, room, name)
             if rank is None:
                 if len(name.parts) > 2:
-                    yield f"{name}: README.md does not list {room}/{name.parts[1]} under \"Where things are\""
+                    yield f"{name}: tests/CONTRIBUTING.md does not list {room}/{name.parts[1]} under \"Where things are\""
                 continue
             for number, header in includes(path):
                 target = folder_of(order, room, header)
@@ -106,7 +106,7 @@ def check_folders(root):
                     yield f"{name}:{number}: {room}/{order[room][rank]} may not include {header}"
         for name in order[room]:
             if not (root / room / name).is_dir():
-                yield f"README.md: there is no folder {room}/{name}"
+                yield f"tests/CONTRIBUTING.md: there is no folder {room}/{name}"
 
 
 def check_private_libraries(root):
@@ -171,7 +171,7 @@ def self_test():
         ("output/a.cpp", '#include "../sim/pose.hpp"\n', check_one_way),
         ("sim/beam/a.hpp", '#include "sim/run/simulate.hpp"\n', check_folders),
         ("scenes/other/a.cpp", "", check_folders),
-        ("README.md", "| `sim/beam` `sim/run` `sim/gone` | |\n", check_folders),
+        ("tests/CONTRIBUTING.md", "| `sim/beam` `sim/run` `sim/gone` | |\n", check_folders),
         ("sim/a.hpp", "#include <cvode/cvode.h>\n", check_private_libraries),
         ("render/a.cpp", "extern \"C\" {\n  #include <libavcodec/avcodec.h>\n}\n", check_private_libraries),
         ("sim/a.cpp", "#include <nlohmann/json.hpp>\n", check_private_libraries),
@@ -186,7 +186,7 @@ def self_test():
                 (root / room).mkdir()
             (root / "tests/a.cpp").write_text("TEST(Modes, AreComputed) {}  // `Modes.AreComputed`\n", encoding="utf-8")
             (root / "sim/MODEL.md").write_text("(S1)", encoding="utf-8")
-            (root / "README.md").write_text("| `sim/beam` `sim/run` | |\n", encoding="utf-8")
+            (root / "tests/CONTRIBUTING.md").write_text("| `sim/beam` `sim/run` | |\n", encoding="utf-8")
             for folder in ("sim/beam", "sim/run"):
                 (root / folder).mkdir()
             (root / "sim/solver.cpp").write_text("#include <cvode/cvode.h>  // (S1)\n", encoding="utf-8")
