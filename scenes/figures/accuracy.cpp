@@ -18,9 +18,7 @@ constexpr const char* kTime = "run time / ms";
 
 // The angle that the errors are of.
 const char* angle(const sim::Accuracy& a) { return a.of_tip ? "$δ/L$" : "$θ$"; }
-std::string error_label(const sim::Accuracy& a, Lang lang) {
-    return phrase(lang, "error of {} / rad", angle(a));
-}
+std::string error_label(const sim::Accuracy& a, Lang lang) { return phrase(lang, "error of {} / rad", angle(a)); }
 
 // A logarithmic axis has no zero: an error below that of the reference is drawn at the latter.
 double visible(double error, const sim::Accuracy& a) { return std::max(error, a.reference_error); }
@@ -60,10 +58,8 @@ Panel mode_counts(const sim::Accuracy& a, Lang lang) {
                 .right = Axis{.label = phrase(lang, kTime), .scale = Scale::logarithmic},
                 .legend = Legend::box,
                 .name = "modes"};
-    Series error{.label = phrase(lang, "error, against $N$ = {}", a.most_modes),
-                 .every_point = true},
-        time{
-            .label = phrase(lang, "run time (right)"), .look = 1, .every_point = true, .right = true};
+    Series error{.label = phrase(lang, "error, against $N$ = {}", a.most_modes), .every_point = true},
+        time{.label = phrase(lang, "run time (right)"), .look = 1, .every_point = true, .right = true};
     for (const sim::ModesRow& row : a.modes) {
         if (!row.error) continue;
         if (row.modes != a.most_modes) error.add(row.modes, visible(*row.error, a));
@@ -89,8 +85,8 @@ Figure accuracy_figure(const sim::Accuracy& a, const sim::Problem& problem, Lang
                   .panels = lettered(std::move(panels)),
                   .aspect = aspect};
     add_caption(figure, std::vector{problem});
-    figure.accuracy = fmt::format("The reference, rk8 at 10^{{−13}}, is good to about {} rad.",
-                                  number(a.reference_error, 1));
+    figure.accuracy =
+        fmt::format("The reference, rk8 at 10^{{−13}}, is good to about {} rad.", number(a.reference_error, 1));
     return figure;
 }
 

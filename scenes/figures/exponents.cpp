@@ -57,11 +57,12 @@ render::figure::Figure exponents_figure(const sim::Exponents& e, const Subject& 
     const std::size_t largest = count_of_largest(e);
     const bool both = largest > 0 && largest < panels[0].series.size();
     if (both) panels.insert(panels.begin(), panel_of(e, largest, lang));
-    render::figure::Figure figure{.name = "exponents",
-                                  .title = fmt::format("Convergence of the Lyapunov exponents over {} s with {} impacts",
-                                                       number(e.duration, 4), e.impacts),
-                                  .panels = lettered(std::move(panels)),
-                                  .aspect = both ? 1.2 : 0.66};
+    render::figure::Figure figure{
+        .name = "exponents",
+        .title = fmt::format("Convergence of the Lyapunov exponents over {} s with {} impacts", number(e.duration, 4),
+                             e.impacts),
+        .panels = lettered(std::move(panels)),
+        .aspect = both ? 1.2 : 0.66};
     add_caption(figure, std::vector{subject.problem});
     figure.accuracy = "Errors are standard errors of block averages.";
     return figure;

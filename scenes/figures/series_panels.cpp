@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 #include "render/base/error.hpp"
@@ -87,7 +88,20 @@ class SeriesPanelMaker {
         for (auto* limit : {&axis.from, &axis.to})
             if (*limit) **limit *= side.measure.factor;
         for (const double at : keys_.lines) panel_.rules.push_back({.at = at * side.measure.factor});
-        if (is_closure()) begin_at_rounding(side);
+        if (is_closure())
+            begin_at_rounding(side);
+        else if (keys_.logarithmic && !plan_.abscissa.is_frequency() && !axis.from)
+            leave_out_tails(side, axis);
+    }
+
+    // A force that ends passes through all decades to zero: the axis begins at most six below the largest value.
+    static void leave_out_tails(const Side& side, Axis& axis) {
+        constexpr double kDecades = 1e-6;
+        double most = 0, least = std::numeric_limits<double>::infinity();
+        for (const sim::Table& rows : side.rows)
+            for (const double v : rows.values.back())
+                if (v > 0) most = std::max(most, v), least = std::min(least, v);
+        if (least < kDecades * most) axis.from = kDecades * most * side.measure.factor;
     }
 
     const AxisUnit& unit_of(const Side& side) const { return side.right ? keys_.right_unit : keys_.unit; }
@@ -108,6 +122,7 @@ class SeriesPanelMaker {
         side.measure = !unit_of(side).name.empty() ? measure_in(unit_of(side))
                        : plan_.has_sums()          ? Measure{1, si}
                                                    : measure_of(si, most, plan_.units);
+        if (plan_.has_sums() && has_sums() && si == "J") return void(side.symbols = {"$E$"});
         for (const Channel& channel : side.channels)
             side.symbols.push_back(
                 fmt::format(fmt::runtime(plan_.abscissa.is_frequency() || is_closure() ? "|{}|" : "{}"),

@@ -18,6 +18,7 @@ namespace {
 using sim::Vec2;
 
 constexpr int kShownPoses = 9, kPoseStations = 65;
+constexpr int kDigits = 6;  // of the instant of a still
 
 // The cam, and the line to its mark from the centre of a disc, or from the axis.
 void add_outline(const sim::Pose& pose, const sim::Problem& problem, std::optional<render::Color> fill,
@@ -54,7 +55,6 @@ void add_bodies(const sim::Pose& pose, const sim::Problem& problem, Sketch& to, 
     if (problem.cam) {
         add_outline(pose, problem, kSteel, Sketch::kInk, kOutline, to, extent);
     }
-    if (problem.hub.radius > 0) to.disc({0, 0}, problem.hub.radius, kSteel, kOutline);
     const render::DrawnBeam beam = render::drawn_beam(problem, pose, 1, beam_depth(problem.beam));
     std::vector<Vec2> outline;
     for (std::size_t i = 0; i < beam.line.size(); ++i) outline.push_back(beam.face(i));
@@ -63,6 +63,10 @@ void add_bodies(const sim::Pose& pose, const sim::Problem& problem, Sketch& to, 
     to.add({.kind = Sketch::Kind::area, .points = outline, .color = kSteel});
     outline.push_back(outline.front());
     to.add({.kind = Sketch::Kind::line, .points = outline, .color = Sketch::kInk, .width = kOutline});
+    // The hub holds the whole section, also where that is drawn beside the axis.
+    const double hub = std::max(std::abs(problem.hub.radius), 1.1 * beam_depth(problem.beam));
+    to.disc({0, 0}, hub, kSteel, kOutline);
+    extent.add({0, 0}, hub);
     if (!pose.nearest || !(pose.nearest->force > 0)) return;
     // On the beam, from the disc.
     const Vec2 at = pose.nearest->point, tip = at + 0.2 * problem.beam.length * pose.nearest->normal;
@@ -101,7 +105,7 @@ void add_instant(const sim::Pose& pose, std::string instant, bool if_room, Sketc
 // end.
 class InstantText {
   public:
-    explicit InstantText(const std::vector<sim::Pose>& poses) {
+    explicit InstantText(const std::vector<sim::Pose>& poses) : single_(poses.size() == 1) {
         const double step = poses.size() > 1 ? poses[1].t - poses[0].t : 0;
         const int few = step > 0 ? render::decimals_of(step) : 1;
         const auto is_exact = [&](const sim::Pose& pose) {
@@ -112,6 +116,7 @@ class InstantText {
         if (!std::ranges::all_of(poses, is_exact)) decimals_ = few + 2;
     }
     std::string operator()(const sim::Pose& pose) const {
+        if (single_) return number(pose.t, kDigits) + " s";
         std::string text = render::fixed(pose.t, decimals_);
         if (decimals_ > 0) text.erase(text.find_last_not_of('0') + 1);
         if (text.ends_with('.')) text.pop_back();
@@ -119,6 +124,7 @@ class InstantText {
     }
 
   private:
+    bool single_;
     int decimals_ = 0;
 };
 
@@ -169,9 +175,10 @@ FigureDrawing prepare_strobe(const Scene& scene, const FigureOutput& how, Motion
         // The shapes with a margin and room for labels.
         const double aspect =
             std::clamp(0.1 + 0.85 * (extent.y1 - extent.y0) / std::max(extent.x1 - extent.x0, 1e-12), 0.3, 1.1);
-        return {.title = one ? fmt::format("The mechanism at {} s, deflection to scale", number(shown.from, 4)) : "",
-                .panels = {std::move(panel)},
-                .aspect = aspect};
+        return {
+            .title = one ? fmt::format("The mechanism at {} s, deflection to scale", number(shown.from, kDigits)) : "",
+            .panels = {std::move(panel)},
+            .aspect = aspect};
     };
     return figure_of_motion(shown.motion, draw);
 }

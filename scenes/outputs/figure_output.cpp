@@ -33,7 +33,8 @@ static void visit(SceneVisitor& v, SeriesPanel& panel) {
     sums.example = "[{\"label\": \"stored\", \"plus\": [\"energy_elastic\", \"energy_contact\"]}]";
     v.list("sums", sums, "Curves that are sums of channels; only they are drawn, in the unit of \"channels\".");
     v.choice("scale", panel.logarithmic, {{false, "linear"}, {true, "log"}},
-             "Scale of the left axis; log omits values that are not positive.");
+             "Scale of the left axis; log omits values that are not positive; a logarithmic one begins at most six "
+             "decades below its largest value, unless \"low\" tells where.");
     const DimensionOf of_axis = dimension_of_first(panel.channels);
     v.value("low", quantity_format(panel.low, of_axis), "Lower end of the left axis; a plain number is in SI units.");
     v.value("high", quantity_format(panel.high, of_axis), "Upper end of the left axis; a plain number is in SI units.");
