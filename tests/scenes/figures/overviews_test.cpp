@@ -72,7 +72,6 @@ TEST(Overviews, AStrobeWritesItsInstantsExactly) {
     EXPECT_GE(labels, 3);
 }
 
-// What `--data` writes: a row for each cell with its deflection, and for each mark.
 TEST(Overviews, AStillOfLinesIsAStrobeOfOneInstant) {
     const Folder folder;
     folder.write("s.json", R"({"time": {"end": 0.4}})");
@@ -83,7 +82,8 @@ TEST(Overviews, AStillOfLinesIsAStrobeOfOneInstant) {
     const auto shows_force = [&](const char* file) {
         return testing::slurp((folder / file).string()).find("rgb(83.529412%,36.862745%,0%)") != std::string::npos;
     };
-    ASSERT_EQ(shell(folder, "$BEAMCAM render s.json --at 0.28 -o force.svg").code, 0);
+    ASSERT_EQ(shell(folder, "$BEAMCAM figure s.json strobe --at '281.5 ms' -o force.svg --caption c.txt").code, 0);
+    EXPECT_THAT(testing::slurp(folder / "c.txt"), HasSubstr("0.2815 s"));
     EXPECT_TRUE(shows_force("force.svg"));
     EXPECT_FALSE(shows_force("a.svg"));
     ASSERT_EQ(shell(folder, "$BEAMCAM figure s.json strobe --at impact:1 -o b.svg").code, 0);

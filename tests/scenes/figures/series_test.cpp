@@ -181,14 +181,29 @@ TEST(Series, AChannelWithoutValuesIsReported) {
 }
 
 // Their potential energy is nothing by itself.
+// A force that ends passes through all decades.
+TEST(Series, ALogarithmicAxisLeavesOutTails) {
+    const auto force = [](const std::string& keys) {
+        return figure_of(R"("panels": [{"channels": ["contact_force"], "scale": "log")" + keys + "}]",
+                         R"("beam": {"model": "rigid"}, )")
+            .panels[0];
+    };
+    const auto panel = force("");
+    const double most = range_of(panel.series[0].y).max;
+    EXPECT_LT(range_of(panel.series[0].y).min, 1e-7 * most);
+    EXPECT_NEAR(panel.y.from.value_or(0) / most, 1e-6, 1e-9);
+    EXPECT_LT(force(R"(, "low": 1e-9)").y.from.value_or(1), 1e-8);
+}
+
 TEST(Series, DrawsSumsOfChannels) {
     const auto figure = figure_of(
-        R"("panels": [{"channels": ["energy_elastic"], "label": "$E$",
+        R"("panels": [{"channels": ["energy_elastic"],
                        "sums": [{"label": "stored", "plus": ["energy_elastic", "energy_contact"]},
                                 {"label": "balance", "plus": ["energy_kinetic", "energy_potential", "energy_elastic",
                                  "energy_contact", "loss_contact"], "minus": ["work_cam"]}]}])");
     ASSERT_EQ(figure.panels[0].series.size(), 2u);
     EXPECT_EQ(figure.panels[0].series[0].label, "stored");
+    EXPECT_EQ(figure.panels[0].y.label, "$E$ / J");  // not the symbol of one of the terms
     const auto [least, most] = std::ranges::minmax(figure.panels[0].series[1].y);
     EXPECT_NEAR(least, most, 1e-6 * std::abs(most));  // energy is conserved
     EXPECT_EQ(figure.title, "Stored, balance");
