@@ -105,6 +105,7 @@ std::string energy_at_apex(double touch, double apex, const sim::Problem& proble
                          {-drive, "to the drive"}};
     double all = 0;
     for (const Part& each : sources) all += std::max(each.size, 0.0);
+    if (!(all > 0)) return {};
     std::string from, to;
     for (const Part& each : sources)  // parts below half a percent are left out
         if (each.size > 0.005 * all)
@@ -133,16 +134,18 @@ PictureOutput told_impact(PictureOutput film, const Scene& scene, const sim::Res
     constexpr double kNear = 2, kMove = 1.2;                           // zoom; duration of the camera's movement [s]
     FrameSpan& span = film.span;
     const sim::Collision& c = collision_after(span.from, motion);
-    const double touch = c.t_start, liftoff = c.t_end.value_or(motion.end_time), length = liftoff - touch;
+    // Of a contact that lasts, the film shows as much as of the time before it.
+    const double touch = c.t_start, liftoff = c.t_end.value_or(std::min(motion.end_time, touch + (touch - span.from))),
+                 length = liftoff - touch;
     const double next = (&c == &motion.collisions.back()) ? motion.end_time : (&c + 1)->t_start;
     const std::vector<sim::Apex> apexes = sim::rebounds(motion);
     const auto apex = std::ranges::find_if(apexes, [&](const sim::Apex& a) { return a.t > liftoff && a.t < next; });
     const bool rebounds = apex != apexes.end();
-    span.to = rebounds ? apex->t : std::min(next, liftoff + std::max(length, touch - span.from));
+    span.to = rebounds ? apex->t : c.t_end ? std::min(next, liftoff + std::max(length, touch - span.from)) : liftoff;
 
     span.speed = {.factor = speed_for(touch - span.from + *span.to - liftoff, kApproach)};
     const double slow = length > 0 ? speed_for(length, kCollision) : span.speed.factor;
-    if (slow < span.speed.factor) {
+    if (slow != span.speed.factor) {
         span.speed.intervals = {{at_time(std::max(span.from, touch - 0.05 * length)),
                                  at_time(std::min(*span.to, liftoff + 0.05 * length)), slow}};
         span.speed.ease = length;
