@@ -1,4 +1,4 @@
-// Loads the program's modules, beamcam_video.so (FFmpeg) and those of OpenGL (gl/lit.hpp), on first use: linking their
+// Loads the program's modules, beamcam_video.so (FFmpeg) and those of OpenGL (gl/renderer.hpp), on first use: linking their
 // libraries would add tens of milliseconds to every start.
 //
 // A module exports one function, `beamcam_module`, which returns one C++ interface. Program and module must be built

@@ -47,7 +47,6 @@ struct Palette {
     Color steel, steel_edge, pin;  // disc, outline, hub
     std::array<Color, 5> moment;   // −1, −½, 0, ½, 1 of the scale
     std::array<Color, 3> force;    // 0, ½, 1 of the scale
-    double shadow = 0.3;           // opacity of the soft shadow in lit views
     bool transparent = false;      // no paper: pale colours have alpha instead
 
     // A colour diluted to this share on the paper.

@@ -2,7 +2,7 @@
 // pixels. Memory does not grow with the number of frames drawn; data that a thread keeps between frames only save time.
 //
 // A frame is a grid of panels (panel.hpp) that share one instant, on a background that never changes. The mechanism is
-// drawn lit through OpenGL (lit.hpp) or flat with Cairo; titles, charts and labels are always drawn with Cairo.
+// drawn as solid bodies with OpenGL (gl/bodies.hpp) or flat with Cairo; titles, charts and labels are always drawn with Cairo.
 // Drawing neither simulates nor changes the simulated motion.
 #pragma once
 
@@ -32,7 +32,7 @@
 
 namespace beamcam::render {
 
-// lit: shaded, from the front; flat: a drawing; solid: bodies in perspective.
+// lit: solid bodies, from the front; flat: a drawing; solid: the same bodies in perspective.
 enum class Style { lit, flat, solid };
 
 struct View {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/mechanism/cam_outline.hpp"
+
 namespace beamcam::render {
 namespace {
 
@@ -38,20 +40,21 @@ MechanismView MechanismCameras::view(int frame) const {
 void MechanismCameras::fit_solid_view() {
     const View& view = home_.context.setup->view;
     const Vec2 middle = home_.box.centre(), hinge = home_.px({0, 0});
-    const double half = home_.wide / 2, hub = home_.hub(), foot = support_reach(hub, home_.unit);
+    const double half = home_.wide / 2, hub = home_.hub(),
+                 foot = floor_depth(home_.problem(), home_.look.camera, home_.unit);
     Bounds seen;  // from the centre of the panel, at zoom 1 [px]
     const auto add_all = [&](double yaw, double pitch) {
-        const auto from = Perspective::looking({}, solid_distance(home_.box), 1, yaw, pitch);
+        const auto from = Projection::looking({}, solid_distance(home_.box), 1, yaw, pitch);
         const auto add = [&](Vec2 p, double z) { seen.add(from.to_pixels({p.x - middle.x, middle.y - p.y, z})); };
         for (const std::vector<Vec2>& strip : home_.context.extent.strips)
             for (const Vec2 p : strip) add(home_.px(p), half), add(home_.px(p), -half);
         for (int i = 0; home_.problem().cam && i < 32; ++i) {
-            const sim::Cam& cam = *home_.problem().cam;
-            const Vec2 rim = cam.centre + sim::unit(2 * pi * i / 32) * (cam.radius + cam.eccentricity);
+            const Vec2 rim = home_.problem().cam->centre + sim::unit(2 * pi * i / 32) * cam_reach(home_.problem());
             for (const double side : {-1.0, 1.0}) add(home_.px(rim), side * kDiscDepth * home_.wide);
         }
-        for (const double x : {-1.5 * hub, 1.5 * hub})
-            for (const double z : {-3 * half, 1.5 * half}) add(hinge + Vec2{x, foot}, z), add(hinge + Vec2{x, -hub}, z);
+        for (const double x : {-1.6 * hub, 1.6 * hub})
+            for (const double z : {-kMountDepth * home_.wide, kHubDepth * home_.wide})
+                add(hinge + Vec2{x, foot}, z), add(hinge + Vec2{x, -hub}, z);
     };
     add_all(view.shot.yaw, view.shot.pitch);
     for (const CameraMove& move : home_.context.setup->moves) add_all(move.shot.yaw, move.shot.pitch);
@@ -66,12 +69,12 @@ void MechanismCameras::fit_solid_view() {
 }
 
 // A near camera is not shifted.
-Perspective MechanismCameras::looking(const MechanismView& at, double yaw, double pitch) const {
+Projection MechanismCameras::looking(const MechanismView& at, double yaw, double pitch) const {
     const Vec2 shift = solid_shift_ * std::clamp(2 - at.zoom(), 0.0, 1.0);
-    return Perspective::looking(at.box.centre() + shift, solid_distance(at.box) * at.zoom(), solid_zoom_, yaw, pitch);
+    return Projection::looking(at.box.centre() + shift, solid_distance(at.box) * at.zoom(), solid_zoom_, yaw, pitch);
 }
 
-std::optional<Perspective> MechanismCameras::perspective(const MechanismView& at, int frame) const {
+std::optional<Projection> MechanismCameras::perspective(const MechanismView& at, int frame) const {
     const View& view = at.context.setup->view;
     if (view.style != Style::solid) return std::nullopt;
     double yaw = view.shot.yaw, pitch = view.shot.pitch;

@@ -20,11 +20,11 @@ class MechanismCameras {
     bool move_at(int frame) const;                 // since the previous frame
     MechanismView view(int frame) const;
     // Of the solid view; none in flat and lit films.
-    std::optional<Perspective> perspective(const MechanismView& at, int frame) const;
+    std::optional<Projection> perspective(const MechanismView& at, int frame) const;
 
   private:
     void fit_solid_view();
-    Perspective looking(const MechanismView& at, double yaw, double pitch) const;
+    Projection looking(const MechanismView& at, double yaw, double pitch) const;
 
     const MechanismView& home_;
     Vec2 solid_shift_;                // of the projection in the solid view, so that everything is in the panel [px]

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/gl/solid.hpp"
+#include "render/gl/bodies.hpp"
 #include "render/mechanism/cam_outline.hpp"
 
 namespace beamcam::render {
@@ -68,10 +68,6 @@ void draw_angle(const MechanismScene& s) {
     const Vec2 o = s.at.px({0, 0});
     const Pen pen{s.at.palette.muted, 1.6 * s.at.unit, {}, Cap::butt};
     s.canvas.clip(s.at.box, [&] {
-        if (s.view) {  // that view has no horizontal through the hinge
-            const Vec2 start = o + Vec2{radius, 0};
-            s.canvas.line(s.on(start - Vec2{12 * s.at.unit, 0}), s.on(start + Vec2{26 * s.at.unit, 0}), pen);
-        }
         s.arc(o, radius, 0, way * (s.view ? visible : std::abs(angle)));
         s.canvas.stroke(pen);
     });
@@ -84,14 +80,15 @@ void draw_angle(const MechanismScene& s) {
 
 // ---- ω -----------------------------------------------------------------------------------------
 
-// The arrow is outside the circle that the disc sweeps, on the side away from the beam. Positive speed is clockwise.
+// The arrow is outside the circle that the disc sweeps, on the side away from the beam and beside the bracket; in the
+// solid view, where it is before the bracket, it is below. Positive speed is clockwise.
 void draw_cam_speed(const MechanismScene& s) {
     const std::optional<sim::Cam>& cam = s.at.problem().cam;
     if (!cam || cam->speed == 0 || !s.at.labelled()) return;
     const Vec2 axis = s.at.px(s.pose.cam_centre);
     const double to_cam = std::atan2(cam->centre.y, cam->centre.x), u = s.at.unit;
     const double beam_side = std::remainder(s.at.problem().initial.angle - to_cam, 2 * pi) >= 0 ? 1 : -1;
-    const double middle = to_cam - beam_side * 0.4 * pi;
+    const double middle = to_cam - beam_side * (s.view ? 0.4 : 0.2) * pi;
     const double radius = cam_reach(s.at.problem()) * s.at.look.camera.scale + 20 * u;
     const double half = std::min(0.8, 150 * u / radius) / 2, head = 17 * u;
     const double from = middle + (cam->speed > 0 ? half : -half), to = 2 * middle - from;

@@ -14,15 +14,6 @@ using std::numbers::pi;
 
 }  // namespace
 
-std::vector<Color> rim_colors(const MechanismView& at, const Trace& trace) {
-    std::vector<Color> out(trace.rim().size(), Color{0, 0, 0, 0});
-    for (std::size_t i = 0; i < out.size(); ++i) {
-        if (!(trace.rim()[i] > 0) || !(at.context.force_scale > 0)) continue;
-        out[i] = force_color(at.palette, std::sqrt(std::min(1.0, double(trace.rim()[i]) / at.context.force_scale)));
-    }
-    return out;
-}
-
 // The base line has its name where it is above a beam that bends visibly, in stills and in slow motion, which give time
 // to read it.
 static void name_base_line(const MechanismScene& s, const std::vector<Vec2>& line) {
@@ -63,43 +54,34 @@ void draw_base_line(const MechanismScene& s) {
     name_base_line(s, line);
 }
 
+static bool is_flat(const MechanismScene& s) { return s.at.context.setup->view.style == Style::flat; }
+
 static Color ink_on_disc(const MechanismScene& s) {
-    const bool dark = s.at.context.setup->view.theme == Theme::dark;
-    if (s.view) return s.at.palette.ink;
-    if (dark && s.at.context.setup->view.style == Style::flat) return s.at.palette.paper;
-    return dark ? rgb(0x14171D) : s.at.palette.steel_edge;
+    if (!is_flat(s)) return rgb(0xF4F6F9);
+    return s.at.context.setup->view.theme == Theme::dark ? s.at.palette.paper : s.at.palette.steel_edge;
 }
 
+// On the front of the disc.
 void draw_disc_marks(const MechanismScene& s, const Trace& trace) {
-    if (!s.shape.disc) return;
     const DiscShape& d = *s.shape.disc;
     const double inset = std::min(7 * s.at.unit, 0.1 * d.radius), n = static_cast<double>(trace.rim().size());
-    const auto place = [&](std::size_t i) {
+    stroke_places(s.canvas, s.at.context, trace.rim(), inset, [&](std::size_t i) {
         const double share = (static_cast<double>(i) + 0.5) / n, wide = 1.7 / n;
-        if (!d.outline.empty()) {
-            s.canvas.move_to(d.rim(share - wide, inset));
-            s.canvas.line_to(d.rim(share, inset));
-            s.canvas.line_to(d.rim(share + wide, inset));
-            return;
-        }
-        const double at = d.angle + 2 * pi * share, half = 2 * pi * wide;
-        s.canvas.move_to(d.centre + down(at - half) * (d.radius - inset));
-        s.canvas.arc(d.centre, d.radius - inset, at - half, at + half);
-    };
-    const double width = std::min(7 * s.at.unit, 0.1 * d.radius);
-    stroke_places(s.canvas, s.at.context, trace.rim(), width, place);
+        s.canvas.move_to(s.on_disc(d.rim(share - wide, inset)));
+        s.canvas.line_to(s.on_disc(d.rim(share, inset)));
+        s.canvas.line_to(s.on_disc(d.rim(share + wide, inset)));
+    });
     if (d.radius < 26 * s.at.marks) return;
     const Color ink = ink_on_disc(s);
     const double apart = norm(d.centre - d.axis), pen = std::max(s.at.marks, 0.45);
-    if (apart > d.bore + 2) {
-        s.canvas.move_to(d.axis + (d.centre - d.axis) * (d.bore / apart));
-        s.canvas.line_to(d.centre);
-        s.canvas.stroke({ink, 1.8 * pen});
-    }
+    if (apart > d.bore + 2)
+        s.canvas.line(s.on_disc(d.axis + (d.centre - d.axis) * (d.bore / apart)), s.on_disc(d.centre),
+                      {ink, 1.8 * pen});
     if (d.outline.empty()) {
-        s.canvas.circle(d.centre, 4 * s.at.marks);
+        s.canvas.circle(s.on_disc(d.centre), 4 * s.at.marks);
         s.canvas.fill(ink);
     }
+    if (!is_flat(s)) return;                     // there the axis has a bearing
     if (s.at.context.setup->view.transparent) {  // the bore shows the background, on which the cross may be invisible
         s.canvas.circle(d.axis, d.bore);
         s.canvas.fill(s.at.palette.paper);

@@ -12,10 +12,8 @@
 namespace beamcam::render {
 
 void draw_base_line(const MechanismScene& s);
-void draw_disc_marks(const MechanismScene& s, const Trace& trace);  // on a flat or lit disc
+void draw_disc_marks(const MechanismScene& s, const Trace& trace);
 void draw_beam_trace(const MechanismScene& s, const Trace& trace);
-// A colour for each bin around the disc, alpha 0 if it was never touched.
-std::vector<Color> rim_colors(const MechanismView& at, const Trace& trace);
 
 // mechanism_ghosts.cpp: other motions drawn into the panel of the first one. Bodies are drawn under its beam, whose
 // colours show bending, outlines over it.

@@ -12,7 +12,9 @@
 namespace beamcam::render {
 namespace {
 
-using std::numbers::pi;
+Pen horizontal_pen(const MechanismView& at) {
+    return {at.palette.faint, 1.5 * at.unit, {10 * at.unit, 8 * at.unit}, Cap::butt};
+}
 
 }  // namespace
 
@@ -29,14 +31,13 @@ struct MechanismPanel::ThreadState final : FilmPanel::State {
         return {context.samples[static_cast<std::size_t>(member)], rim, places(rim), length, places(length)};
     }
     Trace trace;
-    LitMechanism lit;
+    BodyPicture bodies;
     Offscreen seen;  // view of a moving camera
 };
 
 MechanismPanel::MechanismPanel(const FilmContext& context, const PanelSlot& slot)
     : at_(context, slot), legend_(at_), cameras_(at_), rings_(at_) {
     std::vector<Followed> followed;
-    Bounds seen;
     for (int k = 0; k < context.frames(); ++k) {
         const auto [pose, drawn, shape] = at_.drawn_frame(k);
         const Vec2 tip = (shape.face.back() + shape.back.back()) * 0.5, at_tip = at_.look.camera.to_world(tip);
@@ -44,14 +45,9 @@ MechanismPanel::MechanismPanel(const FilmContext& context, const PanelSlot& slot
         tip_path_.add_frame({pose.t, tip, pose.theta});
         followed.push_back(
             {at_tip, drawn.contact ? drawn.contact->on_disc : at_tip, at_.problem().cam ? pose.cam_centre : Vec2{}});
-        for (std::size_t i = 0; i < shape.face.size(); ++i) seen.add(shape.face[i]), seen.add(shape.back[i]);
-        seen.add(shape.hinge, shape.hub);
-        if (shape.disc) seen.add(shape.disc->centre, shape.disc->radius);
     }
     tip_path_.complete(at_);
     cameras_.follow(followed);
-    // Shadows fade out in the gap around the panel.
-    lit_box_ = lit_box(seen.box(), at_.box.inset(-std::floor(10 * at_.unit)), at_.unit);
 }
 
 // Between the previous frame and this one.
@@ -104,9 +100,9 @@ void MechanismPanel::draw_background(Canvas& canvas) const {
 void MechanismPanel::draw_still(Canvas& canvas, const MechanismView& at) const {
     if (at.context.setup->view.style == Style::solid) return;  // the camera may move: there is no fixed background
     const Vec2 o = at.px({0, 0});
-    canvas.line({at.box.x, o.y}, {at.box.right(), o.y},
-                {at.palette.faint, 1.5 * at.unit, {10 * at.unit, 8 * at.unit}, Cap::butt});
-    draw_support(canvas, o, at.hub(), at.marks * at.zoom(), at.marks, at.palette);
+    canvas.line({at.box.x, o.y}, {at.box.right(), o.y}, horizontal_pen(at));
+    if (at.context.setup->view.style == Style::flat)
+        draw_support(canvas, o, at.hub(), at.marks * at.zoom(), at.marks, at.palette);
 }
 
 // ---- moving parts ----------------------------------------------------------------------------
@@ -126,17 +122,20 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
                                  ThreadState& threads) const {
     const auto [pose, drawn, shape] = at.drawn_frame(frame);
     threads.trace.advance_to(pose.t);
-    const std::optional<Perspective> perspective = cameras_.perspective(at, frame);
+    const std::optional<Projection> perspective = cameras_.perspective(at, frame);
     const MechanismScene s{canvas, frame, pose, drawn, shape, at, perspective ? &*perspective : nullptr};
     if (at.ghosts) draw_ghost_bodies(s);
-    if (!s.view) {
+    if (s.view) {
+        const Vec2 o = at.px({0, 0});
+        canvas.clip(at.box, [&] { canvas.line(s.on(o), s.on({at.box.right(), o.y}), horizontal_pen(at)); });
+    } else {
         draw_base_line(s);
         draw_angle(s);
         draw_cam_speed(s);
     }
     tip_path_.draw_trail(s, at_);
     draw_bodies(s, style, threads);
-    if (!s.view) draw_beam_trace(s, threads.trace);
+    draw_beam_trace(s, threads.trace);
     if (at.ghosts) draw_ghost_outlines(s);
     if (at.member == 0) draw_measured_beams(s);
     if (s.view) {  // in the plane of the front of the beam: the mount must not hide them
@@ -149,16 +148,10 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
 
 void MechanismPanel::draw_bodies(const MechanismScene& s, Style style, ThreadState& threads) const {
     if (s.view && style != Style::solid) return;  // only the labels are needed
-    switch (style) {
-        case Style::solid:
-            return threads.lit.draw_solid(s, rim_colors(s.at, threads.trace));
-        case Style::lit:
-            threads.lit.draw(s.canvas, s.shape, s.at, s.at.moved ? s.at.box : lit_box_);
-            break;
-        case Style::flat:
-            draw_flat(s.canvas, s.shape, s.at.unit, s.at.palette);
-            break;
-    }
+    if (style == Style::flat)
+        draw_flat(s.canvas, s.shape, s.at.unit, s.at.palette);
+    else
+        threads.bodies.draw(s);
     if (s.shape.disc) draw_disc_marks(s, threads.trace);
 }
 

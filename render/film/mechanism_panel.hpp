@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
+#include "render/film/body_picture.hpp"
 #include "render/film/impact_rings.hpp"
-#include "render/film/lit_mechanism.hpp"
 #include "render/film/mechanism_cameras.hpp"
 #include "render/film/mechanism_legend.hpp"
 #include "render/film/tip_path.hpp"
@@ -36,7 +36,6 @@ class MechanismPanel final : public FilmPanel {
     MechanismView at_;
     MechanismLegend legend_;
     MechanismCameras cameras_;
-    Box lit_box_;  // contains the lit mechanism at all frames, shadows included; whole pixels
     TipPath tip_path_;
     ImpactRings rings_;
 };

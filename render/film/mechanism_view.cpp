@@ -25,6 +25,7 @@ MechanismView::MechanismView(const FilmContext& all, const PanelSlot& slot)
     names = (all.members() > 1 || measured) && has_names(box, unit);
     place_camera();
     wide = std::clamp(0.06 * problem().beam.length * look.camera.scale, 18 * unit, 80 * unit);
+    over_floor = px({0, context.extent.beams.y0}).y < px({0, 0}).y + floor_depth(problem(), look.camera, unit);
     arc_radius = render::arc_radius(*this);
 }
 
@@ -51,7 +52,7 @@ MechanismView MechanismView::with_camera(const CameraFrame& frame_camera) const 
     return out;
 }
 
-Vec2 MechanismView::seen(Vec2 flat, const Perspective* view, double depth) const {
+Vec2 MechanismView::seen(Vec2 flat, const Projection* view, double depth) const {
     if (!view) return flat;
     const Vec2 middle = box.centre();
     return view->to_pixels({flat.x - middle.x, middle.y - flat.y, depth * wide});

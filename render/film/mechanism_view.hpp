@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "render/film/panel.hpp"
-#include "render/gl/solid.hpp"
+#include "render/gl/bodies.hpp"
 #include "render/mechanism/mechanism.hpp"
 
 namespace beamcam::render {
@@ -42,6 +42,7 @@ struct MechanismView {
     double hub() const { return hub_radius(problem(), look.camera, look.unit); }
     bool moved = false;                // the camera is not the one that shows everything
     bool names = false;                // a row above the mechanism names motions
+    bool over_floor = true;            // the beam stays above the floor
     std::optional<double> arc_radius;  // of θ, before the camera that shows everything [px]
 
     const Motion& motion() const { return context.motion(member); }
@@ -49,7 +50,7 @@ struct MechanismView {
     Vec2 px(Vec2 world) const { return look.camera.to_pixels(world); }
     // Projects a point [px of the flat view] at this depth before the plane of motion, relative to the width of the
     // beam, whose front is at 0.5; unchanged if `view` is null.
-    Vec2 seen(Vec2 flat, const Perspective* view, double depth = 0.5) const;
+    Vec2 seen(Vec2 flat, const Projection* view, double depth = 0.5) const;
     DrawnBeam drawn(int whose, const sim::Pose& pose) const;
     DrawnPose drawn_pose(int whose, sim::Pose pose) const;
     DrawnPose drawn_frame(int frame) const { return drawn_pose(member, context.pose(member, frame)); }
@@ -67,9 +68,10 @@ struct MechanismScene {
     const DrawnBeam& beam;
     const MechanismShape& shape;
     const MechanismView& at;
-    const Perspective* view;  // of the solid view; null: flat or lit
+    const Projection* view;  // of the solid view; null: flat or lit
 
     Vec2 on(Vec2 flat) const { return at.seen(flat, view); }
+    Vec2 on_disc(Vec2 flat) const { return at.seen(flat, view, kDiscDepth); }
     Vec2 px(Vec2 world) const { return on(at.px(world)); }
     void arc(Vec2 flat_centre, double radius, double from, double to) const;
 };

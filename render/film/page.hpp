@@ -10,8 +10,8 @@
 namespace beamcam::render {
 
 // The setup's frames are the instants, increasing. Instants are omitted if linear interpolation between the stored ones
-// reproduces every point within `kPageTolerance` of the beam's length, every angle within the same number [rad], and the
-// force within `kPageForceTolerance` of the largest. The result depends only on the setup.
+// reproduces every point within `kPageTolerance` of the beam's length, every angle within the same number [rad], and
+// the force within `kPageForceTolerance` of the largest. The result depends only on the setup.
 constexpr double kPageTolerance = 1e-3, kPageForceTolerance = 2e-3;
 std::string html_page(const FilmSetup& setup);
 

@@ -38,7 +38,7 @@ Bounds ViewExtent::shown(double scale, double u, bool small) const {
         const double hub = scale > 0 ? hub_radius(*p, {scale, {}}, u) : 0;  // [px]
         const double own = mark_unit(*p, {scale, {}}, u);
         all.add({0, 0}, std::max(hub * pixel, p->hub.radius) + 12 * own * pixel);
-        all.add({0, -support_reach(hub, own) * pixel});
+        if (scale > 0) all.add({0, -floor_depth(*p, {scale, {}}, u) * pixel});
         marks = std::max(marks, own);
     }
     if (!(scale > 0)) return all;

@@ -22,7 +22,6 @@ DiscShape disc_shape(const sim::Problem& problem, const sim::Pose& pose, const C
     const double marks = mark_unit(problem, camera, unit);
     disc.bore = std::min({0.16 * disc.radius, 12 * marks, 0.6 * outline->least_height() * camera.scale});
     disc.mark_radius = std::min(5.5 * marks, 0.09 * disc.radius);
-    disc.dot = std::min(4 * unit, 0.06 * disc.radius);
     const Vec2 ray = sim::unit(pose.cam_angle);
     const double out = disc.radius - std::min(24 * marks, 0.24 * disc.radius);
     disc.mark = disc.centre + Vec2{ray.x, -ray.y} * out;
@@ -174,7 +173,7 @@ double hub_radius(const sim::Problem& problem, const Camera& camera, double unit
     const double offset = problem.cam ? sim::contact_offset(problem) : beam_depth(problem.beam) / 2;
     const double corner = 1.06 * std::max(offset, beam_depth(problem.beam) - offset) * camera.scale;
     const double marks = mark_unit(problem, camera, unit);
-    double boss = std::clamp(corner, 19 * marks, 36 * marks);
+    double boss = std::clamp(corner, 19 * marks, 48 * marks);
     if (problem.cam) {
         const double free = norm(problem.cam->centre) - cam_reach(problem);
         boss = std::min(boss, 0.7 * std::max(free, 0.0) * camera.scale);
@@ -184,6 +183,13 @@ double hub_radius(const sim::Problem& problem, const Camera& camera, double unit
 
 double support_reach(double hub, double marks) { return hub + 44 * marks; }
 double support_half_width(double hub, double marks) { return 0.6 * (hub + 24 * marks) + 18 * marks; }
+
+double floor_depth(const sim::Problem& problem, const Camera& camera, double unit) {
+    const double marks = mark_unit(problem, camera, unit);
+    double depth = support_reach(hub_radius(problem, camera, unit), marks);
+    if (problem.cam) depth = std::max(depth, (cam_reach(problem) - problem.cam->centre.y) * camera.scale + 26 * marks);
+    return depth;
+}
 
 // The width of lines has a visible minimum.
 void draw_support(Canvas& canvas, Vec2 o, double hub, double u, double line, const Palette& p) {
@@ -220,7 +226,12 @@ MechanismShape mechanism_shape(const sim::Problem& problem, const sim::Pose& pos
     s.hinge = look.camera.to_pixels({0, 0});
     s.hub = hub_radius(problem, look.camera, look.unit);
     s.pin = std::min(7 * look.unit, 0.4 * s.hub);
+    s.floor = s.hinge.y + floor_depth(problem, look.camera, look.unit);
     if (problem.cam) s.disc = disc_shape(problem, pose, look.camera, look.unit);
+    if (beam.contact)
+        s.touch = {look.camera.to_pixels(beam.contact->on_disc),
+                   {beam.contact->normal.x, -beam.contact->normal.y},
+                   std::max(beam.contact->gap, 0.0) * look.camera.scale};
     continue_into_hub(s);
     return s;
 }

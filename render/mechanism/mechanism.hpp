@@ -20,7 +20,6 @@ struct DiscShape {
     double angle = 0;   // of the mark, counter-clockwise [rad]
     Vec2 mark;          // centre of the drilled mark near the rim, on the ray C→B [px]
     double mark_radius = 0;
-    double dot = 0;  // radius of the dot at B in the solid view, which grows with the zoom [px]
     // Of a cam with a profile: points at equal distances along it from where contact_s is 0, and the outward normals.
     std::vector<Vec2> outline = {}, outward = {};  // [px], counter-clockwise in the fixed axes; of length 1, y down
     bool operator==(const DiscShape&) const = default;
@@ -34,7 +33,15 @@ struct MechanismShape {
     std::vector<Color> colors;     // one per station
     Vec2 hinge;                    // O [px]
     double hub = 0, pin = 0;       // radii [px]
+    double floor = 0;              // on which the brackets of hub and cam stand [px]
     std::optional<DiscShape> disc;
+    struct Touch {
+        Vec2 at;         // on the cam, where it is nearest to the beam [px]
+        Vec2 normal;     // from the cam to the beam, y down
+        double gap = 0;  // [px]
+        bool operator==(const Touch&) const = default;
+    };
+    std::optional<Touch> touch;
     bool operator==(const MechanismShape&) const = default;
 };
 
@@ -59,6 +66,8 @@ double hub_radius(const sim::Problem& problem, const Camera& camera, double unit
 // The fixed bearing below O. `support_reach`: its extent below O [px]. `marks`: mark_unit.
 double support_reach(double hub_radius, double marks);
 double support_half_width(double hub_radius, double marks);
+// Distance from O down to the floor, which is below that support and below the circle that the cam sweeps [px].
+double floor_depth(const sim::Problem& problem, const Camera& camera, double unit);
 // `line`: size of a design pixel of its lines [px].
 void draw_support(Canvas& canvas, Vec2 hinge, double hub_radius, double marks, double line, const Palette& palette);
 

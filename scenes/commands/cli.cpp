@@ -23,7 +23,7 @@
 #include "output/film/video.hpp"
 #include "output/json/source.hpp"
 #include "output/json/tree.hpp"
-#include "render/gl/lit.hpp"
+#include "render/gl/renderer.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/format/absent.hpp"
 #include "scenes/format/suggest.hpp"

@@ -9,7 +9,7 @@
 #include "output/json/tree.hpp"
 #include "render/base/versions.hpp"
 #include "render/draw/fonts.hpp"
-#include "render/gl/lit.hpp"
+#include "render/gl/renderer.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/motions/fan_out.hpp"
 #include "scenes/motions/fingerprint.hpp"
@@ -69,7 +69,7 @@ std::vector<Check> examine_machine() {
     examine(
         checks, "pictures", "OpenGL",
         "install the Debian package libosmesa6, or libegl1 where libosmesa6 does not exist; flat views need neither",
-        [] { return render::make_lit_renderer(16, 16)->name(); });
+        [] { return render::make_body_renderer(16, 16)->name(); });
     examine_fonts("figures", render::font_files(render::Typefaces::print));
     examine_films(checks);
     examine(checks, "fingerprint", "flat", "see the fonts above", [] { return flat_fingerprint().id(); });

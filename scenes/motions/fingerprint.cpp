@@ -7,7 +7,7 @@
 #include "output/files/digest.hpp"
 #include "render/base/versions.hpp"
 #include "render/draw/fonts.hpp"
-#include "render/gl/lit.hpp"
+#include "render/gl/renderer.hpp"
 
 namespace beamcam::scenes {
 
@@ -34,7 +34,7 @@ Fingerprint figure_fingerprint() { return fingerprint_with(render::Typefaces::pr
 
 Fingerprint lit_fingerprint() {
     Fingerprint found = flat_fingerprint();
-    found.parts["OpenGL"] = render::make_lit_renderer(16, 16)->name();
+    found.parts["OpenGL"] = render::make_body_renderer(16, 16)->name();
     found.parts["processor"] = processor_path();
     return found;
 }

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "render/gl/lit.hpp"
+#include "render/gl/renderer.hpp"
 #include "scenes/figures/figure_files.hpp"
 #include "scenes/outputs/film_setup.hpp"
 #include "scenes/outputs/picture_sinks.hpp"

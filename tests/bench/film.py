@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """What a film costs beside what its encoder alone costs.
 
-film.py BEAMCAM [--frames N] [--sizes 1280x720,...] [--presets ultrafast,...] [--styles flat,lit] [--rivals] [--png] [--repeat N] [--csv FILE]
+film.py BEAMCAM [--frames N] [--sizes 1280x720,...] [--presets ultrafast,...] [--styles flat,lit,solid] [--rivals] [--png] [--repeat N] [--csv FILE]
 
 For every size and preset the very frames of the film are encoded alone, by the ffmpeg program with the same settings
 and the same bits, from memory; every other number is CPU or wall seconds as a ratio to that. Drawing (of it reading back
@@ -76,7 +76,7 @@ def main():
     p.add_argument("--frames", type=int, default=600)
     p.add_argument("--sizes", default="1920x1080")
     p.add_argument("--presets", default="veryfast")
-    p.add_argument("--styles", default="flat,lit")
+    p.add_argument("--styles", default="flat,lit,solid")
     p.add_argument("--repeat", type=int, default=3)
     p.add_argument("--rivals", action="store_true", help="matplotlib and pycairo too, where installed")
     p.add_argument("--png", action="store_true", help="frames as PNG files too")

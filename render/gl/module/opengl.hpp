@@ -8,8 +8,9 @@
 #include <memory>
 #include <vector>
 
+#include "render/draw/dirty_tiles.hpp"
 #include "render/draw/geometry.hpp"
-#include "render/gl/solid.hpp"
+#include "render/mechanism/projection.hpp"
 
 namespace beamcam::render {
 

@@ -1,15 +1,18 @@
-// The common code of beamcam_osmesa.so and beamcam_egl.so: lit and solid views. See lit.hpp.
+// The common code of beamcam_osmesa.so and beamcam_egl.so. See gl/renderer.hpp.
+#include "render/gl/renderer.hpp"
+
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <string_view>
+#include <vector>
 
 #include "render/base/modules.hpp"
-#include "render/draw/dirty_tiles.hpp"
-#include "render/gl/lit.hpp"
-#include "render/gl/module/lit_painter.hpp"
 #include "render/gl/module/opengl.hpp"
-#include "render/gl/module/solid_painter.hpp"
+#include "render/gl/module/shaders.hpp"
+#include "sim/base/clock.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -23,45 +26,107 @@ std::string driver_name() {
     return fmt::format("{} 3.3 (Core Profile) {}", driver, version.substr(mesa));
 }
 
-class Renderer final : public LitRenderer {
+constexpr Vec3 kLight{-0.4096, 0.5898, 0.6962};  // towards it
+
+template <class T>
+void upload(GLenum kind, GLuint buffer, const std::vector<T>& data) {
+    glBindBuffer(kind, buffer);
+    glBufferData(kind, static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), GL_STREAM_DRAW);
+}
+
+// A program with the vertices that it draws.
+struct Drawing {
+    GLuint program = 0, vertices = 0, buffer = 0;
+
+    void make(std::initializer_list<const char*> vertex, std::initializer_list<const char*> fragment,
+              std::initializer_list<GLint> floats) {
+        program = link_program(vertex, fragment);
+        glGenVertexArrays(1, &vertices);
+        glGenBuffers(1, &buffer);
+        glBindVertexArray(vertices);
+        glBindBuffer(GL_ARRAY_BUFFER, buffer);
+        describe_vertices(floats);
+    }
+    template <class T>
+    void begin(const std::vector<T>& data, Vec2 size) const {
+        glUseProgram(program);
+        set(program, "size", size);
+        glBindVertexArray(vertices);
+        upload(GL_ARRAY_BUFFER, buffer, data);
+    }
+};
+
+class Renderer final : public BodyRenderer {
   public:
     Renderer(int width, int height) : width_(width), height_(height), context_(make_context()) {
         context_->make_current();
-        glEnable(GL_BLEND);
-        glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-        glDisable(GL_DITHER);
-        glClearColor(0, 0, 0, 0);
         name_ = driver_name();
     }
 
     std::string name() const override { return name_; }
 
-    void draw(const LitScene& scene, const DirtyTiles* where, Image& out) override {
-        if (!where) out = Image(width_, height_);
+    void draw(const BodyScene& scene, Image& out) override {
         context_->make_current();
-        if (!lit_) lit_ = std::make_unique<LitPainter>(width_, height_);
-        read_back += lit_->draw(scene, where, out);
-    }
-
-    void draw(const SolidScene& scene, Image& out) override {
-        if (out.width != width_ || out.height != height_) out = Image(width_, height_);
-        context_->make_current();
-        if (!solid_) solid_ = std::make_unique<SolidPainter>(width_, height_);
-        solid_->draw(scene, out);
+        if (!bodies_.program) prepare();
+        glClear(GL_COLOR_BUFFER_BIT);
+        const auto all = static_cast<GLsizei>(scene.shadows.size()), below = static_cast<GLsizei>(scene.below);
+        draw_shadows(scene, 0, below);
+        draw_bodies(scene);
+        draw_shadows(scene, below, all);
+        glFinish();
+        const auto drawn = Clock::now();
+        out = Image(width_, height_);
+        for (const Band& b : bands(scene.seen))
+            glReadPixels(b.left, b.top, b.right - b.left, b.bottom - b.top, GL_RGBA, GL_UNSIGNED_BYTE,
+                         out.pixels.data() + std::ptrdiff_t(b.top) * width_ + b.left);
+        require_no_error();
+        read_back += seconds_since(drawn);
     }
 
   private:
+    void prepare() {
+        bodies_.make({kPlaced, kBodyVertex}, {kNoise, kBodyFragment}, {2, 3, 3, 4, 2});
+        shadows_.make({kPlaced, kShadowVertex}, {kNoise, kShadowFragment}, {2, 4, 2});
+        glGenBuffers(1, &corners_);
+        make_target(width_, height_);
+        glViewport(0, 0, width_, height_);
+        glClearColor(0, 0, 0, 0);
+        glDisable(GL_DITHER);
+        glEnable(GL_BLEND);
+        glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+        glPixelStorei(GL_PACK_ROW_LENGTH, width_);
+    }
+
+    // Where shadows meet, the darker one counts.
+    void draw_shadows(const BodyScene& scene, GLsizei first, GLsizei end) const {
+        shadows_.begin(scene.shadows, size());
+        set(shadows_.program, "fade", float(std::max(scene.fade, 1e-3)));
+        glBlendEquation(first == 0 ? GL_MAX : GL_FUNC_ADD);
+        glDrawArrays(GL_TRIANGLES, first, end - first);
+    }
+
+    void draw_bodies(const BodyScene& scene) const {
+        bodies_.begin(scene.vertices, size());
+        set(bodies_.program, "eye", scene.eye);
+        set(bodies_.program, "light", kLight);
+        upload(GL_ELEMENT_ARRAY_BUFFER, corners_, scene.corners);
+        glBlendEquation(GL_FUNC_ADD);
+        glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(scene.corners.size()), GL_UNSIGNED_INT, nullptr);
+    }
+
+    Vec2 size() const { return {double(width_), double(height_)}; }
+
     int width_, height_;
     std::unique_ptr<GlContext> context_;
-    std::unique_ptr<LitPainter> lit_;
-    std::unique_ptr<SolidPainter> solid_;
+    Drawing bodies_, shadows_;
+    GLuint corners_ = 0;
     std::string name_;
 };
 
-class Library final : public LitLibrary {
+class Library final : public BodyRendererLibrary {
   public:
     Library() = default;
-    std::unique_ptr<LitRenderer> make_renderer(int width, int height) const override {
+    std::unique_ptr<BodyRenderer> make_renderer(int width, int height) const override {
         return std::make_unique<Renderer>(width, height);
     }
 };
@@ -70,4 +135,4 @@ const Library kLibrary;
 }  // namespace
 }  // namespace beamcam::render
 
-BEAMCAM_MODULE(static_cast<const beamcam::render::LitLibrary&>(beamcam::render::kLibrary))
+BEAMCAM_MODULE(static_cast<const beamcam::render::BodyRendererLibrary&>(beamcam::render::kLibrary))

@@ -176,7 +176,7 @@ TEST(Camera, AFilmWhoseCameraMovesDoesNotStandStill) {
 // A near camera cuts shadows at the edges of the panel, where it cuts bodies: they do not fade before.
 TEST(GlCamera, ShadowsReachTheEdgesOfTheNearPanel) {
     SKIP_WITHOUT_GL();
-    FilmSetup setup = film_of(Style::solid);
+    FilmSetup setup = film_of(Style::lit);
     setup.view.transparent = true;
     const auto shadows_at_edge = [&](double zoom) {
         setup.view.shot.zoom = zoom;
@@ -188,11 +188,11 @@ TEST(GlCamera, ShadowsReachTheEdgesOfTheNearPanel) {
             for (const int x : {int(box.x), int(box.right())}) {
                 const std::uint32_t pixel = image.pixels[std::size_t(y) * std::size_t(image.width) + std::size_t(x)];
                 const std::uint32_t alpha = pixel >> 24;
-                count += alpha > 30 && alpha < 150 && (pixel & 0xFFFFFF) == 0;  // black: a shadow alone
+                count += alpha > 8 && alpha < 40 && (pixel >> 8 & 255) < alpha / 3;  // dark: a shadow alone
             }
         return count;
     };
-    EXPECT_EQ(shadows_at_edge(1.001), 0);
+    EXPECT_LT(shadows_at_edge(1.001), 8);  // the horizontal through O
     EXPECT_GT(shadows_at_edge(4), 20);
 }
 

@@ -12,7 +12,6 @@
 #include "render/base/error.hpp"
 #include "render/draw/canvas.hpp"
 #include "render/film/panel.hpp"
-#include "render/gl/lit.hpp"
 #include "render/mechanism/mechanism.hpp"
 #include "render/mechanism/trace.hpp"
 #include "tests/render/drawing.hpp"
@@ -312,23 +311,6 @@ TEST(LitFilm, TheBoreOfATransparentDiscIsFilled) {
         const auto x = static_cast<std::size_t>(axis.x + off.x), y = static_cast<std::size_t>(axis.y + off.y);
         EXPECT_EQ(image.pixels[y * 1280 + x] >> 24, 255U) << off.x;
     }
-}
-
-TEST(LitFilm, ShapesKeepClearOfTheGround) {
-    SKIP_WITHOUT_GL();
-    const auto renderer = make_lit_renderer(101, 77);
-    LitScene scene;
-    scene.shadow = 0;
-    scene.strip.face = {{20, 60}, {80, 60}}, scene.strip.back = {{20, 50}, {80, 50}};
-    scene.strip.colors = {rgb(0x808080), rgb(0x808080)};
-    Image image;
-    renderer->draw(scene, nullptr, image);
-    for (int y = 0; y < 77; ++y)
-        for (int x = 0; x < 101; ++x) {
-            const std::uint32_t alpha = image.pixels[std::size_t(y) * 101 + std::size_t(x)] >> 24;
-            const bool inside = x >= 20 && x < 80 && y >= 50 && y < 60;
-            EXPECT_EQ(alpha, inside ? 255U : 0U) << x << "," << y;
-        }
 }
 
 TEST(Trace, KeepsTheLargestForceOfEachPlaceWhateverTheOrder) {

@@ -46,7 +46,7 @@ class Marks {
   public:
     MechanismView home;
     MechanismCameras cameras;
-    std::optional<Perspective> perspective;
+    std::optional<Projection> perspective;
     std::vector<Box> texts;
 
   private:

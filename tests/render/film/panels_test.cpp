@@ -13,7 +13,7 @@
 #include "render/film/film.hpp"
 #include "render/film/mechanism_view.hpp"
 #include "render/film/strip_content.hpp"
-#include "render/gl/solid.hpp"
+#include "render/mechanism/projection.hpp"
 #include "render/plot/labels.hpp"
 #include "tests/render/drawing.hpp"
 #include "tests/render/synthetic.hpp"
@@ -1156,8 +1156,8 @@ TEST(Labels, BothCoefficientsOfStickSlipAreTold) {
     EXPECT_NE(found->find("0.35"), std::string::npos) << *found;
 }
 
-TEST(Perspective, FromTheFrontThePlaneOfMotionIsTheFlatView) {
-    const Perspective front = Perspective::looking({400, 300}, 2000, 1, 0, 0);
+TEST(Projection, FromTheFrontThePlaneOfMotionIsTheFlatView) {
+    const Projection front = Projection::looking({400, 300}, 2000, 1, 0, 0);
     const Vec2 p = front.to_pixels({120, 50, 0});
     EXPECT_NEAR(p.x, 520, 1e-12);
     EXPECT_NEAR(p.y, 250, 1e-12);
@@ -1166,8 +1166,8 @@ TEST(Perspective, FromTheFrontThePlaneOfMotionIsTheFlatView) {
     EXPECT_NEAR(nearer.y, 300 - 62.5, 1e-9);
 }
 
-TEST(Perspective, AxesAreOrthonormal) {
-    const Perspective p = Perspective::looking({}, 1000, 1, 0.7, -0.3);
+TEST(Projection, AxesAreOrthonormal) {
+    const Projection p = Projection::looking({}, 1000, 1, 0.7, -0.3);
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j) {
             const Vec3 &a = p.axes[i], &b = p.axes[j];

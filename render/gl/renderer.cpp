@@ -1,4 +1,4 @@
-#include "render/gl/lit.hpp"
+#include "render/gl/renderer.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -76,7 +76,7 @@ const std::vector<std::string>& ignored_gl_settings() {
     return ignored;
 }
 
-std::unique_ptr<LitRenderer> make_lit_renderer(int width, int height) {
+std::unique_ptr<BodyRenderer> make_body_renderer(int width, int height) {
     ignored_gl_settings();  // sets the environment before Mesa reads it
     if (!can_start_threads(threads_of_mesa()))
         throw ThreadError(fmt::format("no thread can be started for OpenGL; {}", kThreadRemedy));
@@ -84,7 +84,8 @@ std::unique_ptr<LitRenderer> make_lit_renderer(int width, int height) {
     std::string reasons;
     for (const std::string& name : modules()) {
         try {
-            const auto* library = static_cast<const LitLibrary*>(load_module(fmt::format("beamcam_{}.so", name)));
+            const auto* library =
+                static_cast<const BodyRendererLibrary*>(load_module(fmt::format("beamcam_{}.so", name)));
             return library->make_renderer(width, height);
         } catch (const GlError& error) {
             if (memory_was_short()) throw PerhapsOutOfMemory(error.what());  // Mesa does not report it

@@ -1,0 +1,54 @@
+#include "render/film/body_picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace beamcam::render {
+namespace {
+
+// The panel's box in whole pixels; that of the lit view, whose bodies end inside it, with the gap around it for
+// shadows.
+Box picture_box(const MechanismScene& s) {
+    const MechanismView& at = s.at;
+    const Image& picture = s.canvas.image();
+    const Box wide = at.moved || s.view ? at.box : at.box.inset(-std::floor(10 * at.unit));
+    const double x0 = std::clamp(std::floor(wide.x), 0.0, picture.width - 1.0),
+                 y0 = std::clamp(std::floor(wide.y), 0.0, picture.height - 1.0);
+    return {x0, y0, std::clamp(std::ceil(wide.right()), x0 + 1, double(picture.width)) - x0,
+            std::clamp(std::ceil(wide.bottom()), y0 + 1, double(picture.height)) - y0};
+}
+
+}  // namespace
+
+void BodyPicture::draw(const MechanismScene& s) {
+    const MechanismView& at = s.at;
+    const Box box = picture_box(s);
+    DrawingCounts& counts = *at.context.counts;
+    if (!renderer_) {
+        renderer_ = make_body_renderer(static_cast<int>(box.w), static_cast<int>(box.h));
+        ++counts.gl_contexts;
+    }
+    // Bodies have the panel's middle as their origin.
+    Projection view = s.view ? *s.view : Projection::front(at.box.centre());
+    view.centre = view.centre - Vec2{box.x, box.y};
+    if (Drawn now{s.shape, view}; !(drawn_ == now)) {
+        const Ground ground = !s.view ? Ground::wall : at.over_floor ? Ground::floor : Ground::none;
+        const double before = renderer_->read_back;
+        const Stage stage{box,     at.box.centre(),      ground,
+                          at.wide, at.marks * at.zoom(), std::clamp(2 - at.zoom(), 0.0, 1.0)};
+        const BodyScene scene = body_scene(s.shape, at.palette, stage, view);
+        drawn_.reset();
+        renderer_->draw(scene, image_);
+        drawn_ = std::move(now), seen_ = scene.seen;
+        counts.read_back += renderer_->read_back - before;
+        ++counts.mechanisms_lit;
+    }
+    DirtyTiles where(s.canvas.image().width, s.canvas.image().height);
+    seen_.for_each_run([&](double left, double top, double right, double bottom) {
+        where.add({box.x + left, box.y + top, right - left - 1, bottom - top - 1});
+    });
+    s.canvas.image_tiles(image_, static_cast<int>(box.x), static_cast<int>(box.y), where);
+}
+
+}  // namespace beamcam::render
