@@ -22,14 +22,9 @@ struct Tangent {
 };
 std::optional<Tangent> resting_tangent(const sim::Problem& p) {
     if (p.initial.shape != sim::InitialShape::resting || !p.cam) return std::nullopt;
-    if (p.cam->profile) {
-        const sim::Lever::State lever = sim::Lever(p).at(-p.cam->phase);
-        return Tangent{lever.motion.theta, lever.foot};
-    }
-    const Vec2 b = disc_centre(*p.cam, 0);
-    const double distance = norm(b), reach = p.cam->radius + contact_offset(p);
-    if (!(reach < distance)) return std::nullopt;
-    return Tangent{std::atan2(b.y, b.x) + std::asin(reach / distance), std::sqrt(distance * distance - reach * reach)};
+    const sim::Lever::State lever = sim::Lever(p).at(-p.cam->phase);
+    if (!std::isfinite(lever.foot)) return std::nullopt;
+    return Tangent{lever.motion.theta, lever.foot};
 }
 
 double start_angle(const sim::Problem& p) {

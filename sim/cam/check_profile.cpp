@@ -20,6 +20,7 @@ constexpr double kTangent = 1e-6;          // of the outline's size: the digits 
 constexpr std::size_t kFewestPoints = 24, kMostPoints = 100'000;
 constexpr double kLongestGap =
     4;  // of the longest distance of neighbours: the first and the last point of an open curve
+constexpr double kUncertain = 0.1;  // of a radius of curvature, which half of the points make that much different
 
 double degrees(double angle) { return angle * 180 / std::numbers::pi; }
 
@@ -28,7 +29,10 @@ double degrees(double angle) { return angle * 180 / std::numbers::pi; }
 class LawCheck {
   public:
     LawCheck(const LawProfile& profile, Vec2 centre, double offset)
-        : profile_(profile), centre_(centre), offset_(offset) {}
+        : profile_(profile), centre_(centre), offset_(offset), side_(side_of(profile, centre)) {
+        direction_ = std::atan2(centre.y, centre.x);
+        direction_ += kFullTurn * std::round((profile.lowest - direction_) / kFullTurn);
+    }
 
     std::vector<Issue> issues() {
         check_segments();
@@ -96,31 +100,42 @@ class LawCheck {
                               degrees(sum), degrees(profile_.segments[last].rise - sum)));
     }
 
-    // The angles of levers that touch a cam about C on its left side, as seen from the pivot.
+    // The lever stays on one side of its line to C, clear of it by the offset and within a right angle.
     void check_angles() {
-        const double distance = norm(centre_), direction = std::atan2(centre_.y, centre_.x);
+        const double distance = norm(centre_);
         if (!(distance > offset_))
             return out_.push_back(
                 {"cam.centre", fmt::format("is {:g} m from the pivot of the lever, whose face is {:g} m "
                                            "from it; move the cam away",
                                            distance, offset_)});
-        const double least = direction + std::asin(offset_ / distance), most = direction + std::numbers::pi / 2;
+        const double near = std::asin(offset_ / distance), far = std::numbers::pi / 2;
+        const auto [low, high] = range();
+        if (side_ * (low - direction_) > near && side_ * (low - direction_) < far &&
+            side_ * (high - direction_) > near && side_ * (high - direction_) < far)
+            return;
+        const double least = high > direction_ ? near : -far, most = high > direction_ ? far : -near;
+        const std::string remedy = high - low < most - least
+                                       ? fmt::format("write \"lowest\" between {:.6g} and {:.6g} deg",
+                                                     degrees(direction_ + least + profile_.lowest - low),
+                                                     degrees(direction_ + most + profile_.lowest - high))
+                                       : "reduce the rises";
+        error("lowest",
+              fmt::format("the lever moves between {:.6g} and {:.6g} deg, but levers on a cam about [{:g}, {:g}] m "
+                          "have angles between {:.6g} and {:.6g} deg, or between {:.6g} and {:.6g} deg on its other "
+                          "side; {}",
+                          degrees(low), degrees(high), centre_.x, centre_.y, degrees(direction_ + least),
+                          degrees(direction_ + most), degrees(direction_ - most), degrees(direction_ - least), remedy));
+    }
+
+    // The least and the largest angle of the lever [rad].
+    std::pair<double, double> range() const {
         double low = profile_.lowest, high = profile_.lowest, theta = profile_.lowest;
         for (const LawSegment& each : profile_.segments) {
             theta += each.rise;
             low = std::min(low, theta);
             high = std::max(high, theta);
         }
-        if (low > least && high < most) return;
-        const std::string remedy =
-            high - low < most - least
-                ? fmt::format("write \"lowest\" between {:.6g} and {:.6g} deg", degrees(least + profile_.lowest - low),
-                              degrees(most + profile_.lowest - high))
-                : "reduce the rises";
-        error("lowest",
-              fmt::format("the lever moves between {:.6g} and {:.6g} deg, but levers on a cam about [{:g}, {:g}] "
-                          "m have angles between {:.6g} and {:.6g} deg; {}",
-                          degrees(low), degrees(high), centre_.x, centre_.y, degrees(least), degrees(most), remedy));
+        return {low, high};
     }
 
     // Where `quantity` of the motion is least: {φ, value}. Not finite counts as least.
@@ -157,7 +172,8 @@ class LawCheck {
     double size() const { return norm(centre_); }
     Vec2 least_radius(const LawProfile& profile, Vec2 centre) const {
         return least(profile, [&](const LeverMotion& m) {
-            return 1 + m.velocity > 0 ? touched_point(m, centre, offset_).radius : -std::numeric_limits<double>::max();
+            return 1 + m.velocity > 0 ? touched_point(m, centre, offset_, side_).radius
+                                      : -std::numeric_limits<double>::max();
         });
     }
     bool is_convex(const LawProfile& profile, Vec2 centre) const {
@@ -183,16 +199,16 @@ class LawCheck {
     std::vector<std::string> remedies() const {
         std::vector<std::string> all;
         LawProfile changed = profile_;
-        double highest = 0, theta = 0;
-        for (const LawSegment& each : profile_.segments) highest = std::max(highest, theta += each.rise);
-        const double direction = std::atan2(centre_.y, centre_.x);
-        const auto lowest = first_convex(profile_.lowest, direction + std::numbers::pi / 2 - highest, [&](double x) {
-            changed.lowest = x;
+        const auto [low, high] = range();
+        const double room = std::numbers::pi / 2 - std::max(side_ * (low - direction_), side_ * (high - direction_));
+        const auto lift = first_convex(0, room, [&](double x) {
+            changed.lowest = profile_.lowest + side_ * x;
             return is_convex(changed, centre_);
         });
-        if (lowest)
-            all.push_back(
-                fmt::format("raise \"lowest\" to at least {:.2f} deg", std::ceil(degrees(*lowest) * 100) / 100));
+        if (lift)
+            all.push_back(fmt::format("{} \"lowest\" to at {} {:.2f} deg", side_ > 0 ? "raise" : "lower",
+                                      side_ > 0 ? "least" : "most",
+                                      side_ * std::ceil(degrees(side_ * profile_.lowest + *lift) * 100) / 100));
         changed = profile_;
         const auto cut = first_convex(0, 1, [&](double x) {
             for (std::size_t i = 0; i < changed.segments.size(); ++i)
@@ -226,7 +242,8 @@ class LawCheck {
 
     const LawProfile& profile_;
     Vec2 centre_;
-    double offset_;
+    double offset_, side_;
+    double direction_;  // of the cam as seen from the pivot, within half a turn of the lever [rad]
     std::vector<Issue> out_;
 };
 
@@ -272,11 +289,40 @@ std::string point_name(std::size_t i, const Vec2& p) {
     return fmt::format("point {} at ({:.6g}, {:.6g}) m", i + 1, p.x, p.y);
 }
 
-std::vector<Issue> check_points(const PointsProfile& profile) {
+// Half of the points have a quarter of the noise in the radius of curvature, and four times the error of a spline
+// through exact points: where they disagree, one of these is large.
+std::vector<Issue> warn_of_noise(const OrientedPoints& outline, const std::vector<ProfileSpan>& spans) {
+    PointsProfile half;
+    for (std::size_t i = 0; i < outline.points.size(); i += 2) {
+        half.x.push_back(outline.points[i].x);
+        half.y.push_back(outline.points[i].y);
+    }
+    const std::vector<ProfileSpan> coarse = spans_of(half);
+    std::size_t worst = 0;
+    double most = 0;
+    const auto radius = [](const ProfileSpan& span) { return span.at(span.from).radius; };
+    for (std::size_t i = 0; i < coarse.size(); ++i) {
+        const double change = std::fabs(radius(coarse[i]) / radius(spans[2 * i]) - 1);
+        if (change > most) {
+            most = change;
+            worst = i;
+        }
+    }
+    if (most <= kUncertain) return {};
+    const Vec2 p = outline.points[2 * worst];
+    return {{"cam.profile",
+             fmt::format("the radius of curvature at ({:.6g}, {:.6g}) m is {:.4g} m, but {:.4g} m without every second "
+                         "point: the points are too far apart or too noisy for forces and jump speeds; state more of "
+                         "them or more digits, and smooth measured ones",
+                         p.x, p.y, radius(spans[2 * worst]), radius(coarse[worst])),
+             false}};
+}
+
+std::vector<Issue> check_points(const PointsProfile& profile, const std::string& hint) {
     if (profile.x.size() != profile.y.size())
         return {{"cam.profile", fmt::format("the points need as many second coordinates ({}) as first ones ({})",
                                             profile.y.size(), profile.x.size())}};
-    const auto wrong = [](std::string message) { return std::vector<Issue>{{"cam.profile", std::move(message)}}; };
+    const auto wrong = [&](const std::string& message) { return std::vector<Issue>{{"cam.profile", message + hint}}; };
     if (profile.x.size() > kMostPoints)
         return wrong(fmt::format("an outline has at most {} points, this one has {}: leave out most of them",
                                  kMostPoints, profile.x.size()));
@@ -309,7 +355,9 @@ std::vector<Issue> check_points(const PointsProfile& profile) {
                         closing, longest));
     if (!(std::fabs(turn - kFullTurn) < 1))
         return wrong(
-            "the outline does not go once around the axis at (0, 0); state the points in the cam's frame, in order");
+            "the outline does not go once around the axis at (0, 0); state the points in the cam's frame, in order, "
+            "and "
+            "the unit of angles");
     for (std::size_t i = 0; i < n; ++i) {
         const Vec2 &before = points[(i + n - 1) % n], &p = points[i], &next = points[(i + 1) % n];
         if (!(cross(p - before, next - p) > 0)) return hollow(i);
@@ -320,8 +368,9 @@ std::vector<Issue> check_points(const PointsProfile& profile) {
     }
     double size = 0;
     for (const Vec2& p : points) size = std::max(size, norm(p));
+    const std::vector<ProfileSpan> spans = spans_of(profile);
     std::size_t i = 0;
-    for (const ProfileSpan& span : spans_of(profile)) {
+    for (const ProfileSpan& span : spans) {
         const Vec2 sharpest = largest_over({span.from, span.to}, [&](double alpha) {
             const double radius = span.at(alpha).radius;
             return std::isfinite(radius) ? -radius : std::numeric_limits<double>::max();
@@ -333,7 +382,7 @@ std::vector<Issue> check_points(const PointsProfile& profile) {
                             -sharpest.y, named(i)));
         ++i;
     }
-    return {};
+    return warn_of_noise(outline, spans);
 }
 
 std::vector<Issue> check_axis(const Problem& problem) {
@@ -355,9 +404,22 @@ std::vector<Issue> check_profile(const Problem& problem) {
     if (const auto* law = std::get_if<LawProfile>(&*cam.profile))
         issues = LawCheck(*law, cam.centre, contact_offset(problem)).issues();
     if (const auto* arcs = std::get_if<ArcsProfile>(&*cam.profile)) issues = check_arcs(*arcs);
-    if (const auto* points = std::get_if<PointsProfile>(&*cam.profile)) issues = check_points(*points);
-    if (issues.empty()) issues = check_axis(problem);
+    if (const auto* points = std::get_if<PointsProfile>(&*cam.profile))
+        issues = check_points(*points, hint_of_unit(problem));
+    if (std::ranges::none_of(issues, &Issue::fatal)) std::ranges::move(check_axis(problem), std::back_inserter(issues));
     return issues;
+}
+
+std::string hint_of_unit(const Problem& problem) {
+    const auto* points = std::get_if<PointsProfile>(problem.cam->profile ? &*problem.cam->profile : nullptr);
+    if (!points || points->x.size() != points->y.size()) return "";
+    double size = 0;
+    for (std::size_t i = 0; i < points->x.size(); ++i) size = std::max(size, std::hypot(points->x[i], points->y[i]));
+    if (size < norm(problem.cam->centre)) return "";
+    return fmt::format(
+        "; the points reach {:.4g} m from the axis: if their columns are in mm, add \"units\": "
+        "{{\"COLUMN\": \"mm\", …}}",
+        size);
 }
 
 }  // namespace beamcam::sim

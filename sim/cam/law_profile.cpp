@@ -8,35 +8,34 @@
 namespace beamcam::sim {
 namespace {
 
-double normal_angle(const ProgrammedMotion::Segment& segment, double phi) {
-    return ProgrammedMotion::at(segment, phi).theta + std::numbers::pi / 2 + phi;
-}
-
-// φ in [low, high] of the normal α.
-double turn_of_normal(const ProgrammedMotion::Segment& segment, double alpha, double low, double high) {
+// φ in [low, high] where θ + φ has this value.
+double turn_of(const ProgrammedMotion::Segment& segment, double sum, double low, double high) {
     return increasing_root(
         [&](double phi) {
             const LeverMotion motion = ProgrammedMotion::at(segment, phi);
-            return std::pair(motion.theta + std::numbers::pi / 2 + phi - alpha, 1 + motion.velocity);
+            return std::pair(motion.theta + phi - sum, 1 + motion.velocity);
         },
         low, high);
 }
 
 }  // namespace
 
-CamPoint touched_point(const LeverMotion& motion, Vec2 centre, double offset) {
+CamPoint touched_point(const LeverMotion& motion, Vec2 centre, double offset, double side) {
     const Vec2 u = unit(motion.theta);
     const double along = dot(centre, u), across = dot(centre, perp(u));
     const double turned = 1 + motion.velocity;  // dα/dφ
     const double curved = ((along * motion.acceleration + across * motion.velocity * motion.velocity) * turned -
                            along * motion.velocity * motion.acceleration) /
                           (turned * turned * turned);
-    const double h = -across - offset;
-    return {h, along * motion.velocity / turned, h + curved};
+    const double h = -side * across - offset;
+    return {h, side * along * motion.velocity / turned, h + side * curved};
 }
+
+double side_of(const LawProfile& profile, Vec2 centre) { return cross(centre, unit(profile.lowest)) < 0 ? -1 : 1; }
 
 std::vector<ProfileSpan> spans_of(const LawProfile& profile, Vec2 centre, double offset) {
     std::vector<ProfileSpan> spans;
+    const double side = side_of(profile, centre), upright = side * std::numbers::pi / 2;
     const ProgrammedMotion motion(profile);
     for (const ProgrammedMotion::Segment& segment : motion.segments()) {
         std::vector<double> ends{0};
@@ -45,11 +44,12 @@ std::vector<ProfileSpan> spans_of(const LawProfile& profile, Vec2 centre, double
         for (std::size_t i = 1; i < ends.size(); ++i) {
             const double low = segment.start + ends[i - 1] * segment.over,
                          high = segment.start + ends[i] * segment.over;
-            const double from = normal_angle(segment, low), to = normal_angle(segment, high);
+            const double from = ProgrammedMotion::at(segment, low).theta + low + upright,
+                         to = ProgrammedMotion::at(segment, high).theta + high + upright;
             if (!(from < to)) continue;
-            spans.push_back({from, to, [segment, low, high, centre, offset](double alpha) {
-                                 const double phi = turn_of_normal(segment, alpha, low, high);
-                                 return touched_point(ProgrammedMotion::at(segment, phi), centre, offset);
+            spans.push_back({from, to, [segment, low, high, centre, offset, side, upright](double alpha) {
+                                 const double phi = turn_of(segment, alpha - upright, low, high);
+                                 return touched_point(ProgrammedMotion::at(segment, phi), centre, offset, side);
                              }});
         }
     }

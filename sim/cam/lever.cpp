@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "sim/base/numerics.hpp"
+#include "sim/beam/drive.hpp"
 
 namespace beamcam::sim {
 
@@ -17,48 +18,67 @@ Lever::Lever(const Problem& p)
     const double a = p.hub.radius, length = p.beam.length, mass = p.beam.line_density() * length;
     inertia_ = p.hub.inertia + mass * (a * a + a * length + length * length / 3);
     weight_ = mass * p.gravity * (a + 0.5 * length);
-    const auto* torque = std::get_if<ConstantTorque>(&p.hub.drive);
-    torque_ = torque ? torque->value : 0;
+    torque_ = DriveLaw(p.hub.drive, p.initial.angle).torque(0);
     spring_ = p.hub.spring;
     sense_ = p.cam->speed < 0 ? -1 : 1;
     is_driven_ = !is_independent_of_time(p.hub.drive);
+    side_ = starting_side(p);
 }
 
-// (S106): h + d = |C| sin(θ − arg C), and its derivatives by α.
+// The beam at rest starts on the side against which it is pressed, above the cam if on both or on neither; another one
+// on the side of its angle, whose whole turns those of the lever are, too.
+double Lever::starting_side(const Problem& p) {
+    if (p.initial.shape == InitialShape::resting) {
+        const bool lifted = pressing_moment(at(-p.cam->phase).motion.theta) < 0;
+        side_ = -1;
+        return lifted && pressing_moment(at(-p.cam->phase).motion.theta) > 0 ? -1 : 1;
+    }
+    const DriveLaw drive(p.hub.drive, p.initial.angle);
+    const double angle = drive.prescribed() ? drive.motion(0).angle : p.initial.angle;
+    direction_ += kFullTurn * std::round((angle - direction_) / kFullTurn);
+    return angle < direction_ ? -1 : 1;
+}
+
+// (S106): σ(h + d) = |C| sin(θ − arg C), and its derivatives by α.
 Lever::State Lever::at_normal(double alpha) const {
     State s;
     s.alpha = alpha;
     s.point = shape_->at(alpha);
-    const double across = s.point.h + offset_, h2 = s.point.radius - s.point.h;
-    const double h3 = shape_->radius_slope(alpha) - s.point.slope;
+    const double across = side_ * (s.point.h + offset_), h1 = side_ * s.point.slope;
+    const double h2 = side_ * (s.point.radius - s.point.h), h3 = side_ * (shape_->radius_slope(alpha) - s.point.slope);
     const double along = std::sqrt((distance_ - across) * (distance_ + across));  // C·u
-    const double t1 = s.point.slope / along, t2 = (h2 + across * t1 * t1) / along;
+    const double t1 = h1 / along, t2 = (h2 + across * t1 * t1) / along;
     const double t3 = (h3 + 3 * across * t1 * t2 + along * t1 * t1 * t1) / along;
     const double turned = 1 / (1 - t1);  // dα/dφ = 1 + θ′
     s.motion.theta = direction_ + std::atan2(across, along);
     s.motion.velocity = t1 * turned;
     s.motion.acceleration = t2 * turned * turned * turned;
     s.motion.jerk = (t3 + 3 * t2 * t2 * turned) * turned * turned * turned * turned;
-    s.phi = alpha - s.motion.theta - std::numbers::pi / 2;
-    s.foot = along - s.point.slope;
+    s.phi = alpha - s.motion.theta - side_ * std::numbers::pi / 2;
+    s.foot = along - h1;
     return s;
 }
 
 Lever::State Lever::at(double phi) const {
-    const double upright = phi + std::numbers::pi / 2 + direction_;
+    // The lever between its line to C and that turned by a right angle.
+    const double low = phi + direction_ + (side_ > 0 ? 0.5 : -1) * std::numbers::pi;
     return at_normal(increasing_root(
         [&](double alpha) {
             const State s = at_normal(alpha);
             return std::pair(s.phi - phi, 1 / (1 + s.motion.velocity));
         },
-        upright, upright + std::numbers::pi / 2));
+        low, low + std::numbers::pi / 2));
 }
 
 // (S108)
 double Lever::pressure_angle(const State& state) const { return std::atan2(offset_, state.foot); }
 
 double Lever::pressing_moment(double theta) const {
-    return weight_ * std::cos(theta) - (spring_ ? spring_->torque(theta, 0) : 0) - torque_;
+    return side_ * (weight_ * std::cos(theta) - (spring_ ? spring_->torque(theta, 0) : 0) - torque_);
+}
+
+double Lever::farthest_foot() const {
+    return largest_over(shape_->intervals(), [&](double alpha) { return at_normal(alpha).foot; }).y;
 }
 
 double Lever::turn_at_normal(double alpha) const {
@@ -79,17 +99,17 @@ Lever::Summary Lever::summary() const {
             jump()};
 }
 
-// (S107): Jθ″ω² + cθ′ω + M vanishes first where the larger root 1/ω of Jθ″ + cθ′/ω + M/ω² is largest.
+// (S107): σ(Jθ″ω² + cθ′ω) + M vanishes first where the larger root 1/ω of σ(Jθ″ + cθ′/ω) + M/ω² is largest.
 std::optional<Lever::Jump> Lever::jump() const {
     if (is_driven_) return std::nullopt;
     const std::vector<double> ends = shape_->intervals();
     const Vec2 least = largest_over(ends, [&](double a) { return -pressing_moment(at_normal(a).motion.theta); });
     if (!(least.y < 0)) return Jump{0, turn_at_normal(least.x)};
-    const double damping = spring_ ? sense_ * spring_->damping : 0;
+    const double inertia = side_ * inertia_, damping = spring_ ? side_ * sense_ * spring_->damping : 0;
     const Vec2 first = largest_over(ends, [&](double a) {
         const LeverMotion m = at_normal(a).motion;
         const double moment = pressing_moment(m.theta), half = 0.5 * damping * m.velocity / moment;
-        const double square = -inertia_ * m.acceleration / moment;  // of 1/ω without damping
+        const double square = -inertia * m.acceleration / moment;  // of 1/ω without damping
         if (damping == 0) return square;
         const double root = half * half + square;
         const double inverse = root < 0 ? root : std::sqrt(root) - half;

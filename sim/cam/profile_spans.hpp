@@ -23,8 +23,10 @@ std::vector<ProfileSpan> spans_of(const PointsProfile& profile);
 std::vector<ProfileSpan> spans_of(const Problem& problem);  // whose cam has a profile
 
 // The point of the outline that a straight lever touches when it moves like this (S103). `centre` is C from the lever's
-// pivot, `offset` d.
-CamPoint touched_point(const LeverMotion& motion, Vec2 centre, double offset);
+// pivot, `offset` d, `side` σ.
+CamPoint touched_point(const LeverMotion& motion, Vec2 centre, double offset, double side);
+// σ of the lever for which the outline is made: 1 where its lowest angle lies counter-clockwise from C, else −1.
+double side_of(const LawProfile& profile, Vec2 centre);
 
 // The arcs, changed least so that each is exactly tangent to the next (S104).
 std::vector<Arc> closed_arcs(const ArcsProfile& profile);

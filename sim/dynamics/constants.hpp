@@ -29,6 +29,7 @@ inline constexpr double kNewtonConverged = 1e-13;  // of an unknown's magnitude:
 // The load mgL²/(EI) grows by this from one equilibrium to the next; up to 7 are followed. A beam that needs more steps
 // than the second number is a chain: its load is 5·10³.
 inline constexpr double kLoadStep = 5, kMostLoadSteps = 1000;
+inline constexpr double kRestingLoadStep = 0.5;   // the same on the cam, which a beam bent in one step would leave
 inline constexpr double kEquilibriumGap = 1e-10;  // of the length: largest gap of a beam that rests on the cam
 inline constexpr double kSeparatedPull = 1e-6;    // of K: the spring that pulls a separated iterate back to the cam
 inline constexpr double kBalanced = 1e-9;         // of the natural forces: largest residual in equilibrium

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "sim/base/linear_algebra.hpp"
+#include "sim/cam/lever.hpp"
 #include "sim/dynamics/constants.hpp"
 #include "sim/dynamics/newton.hpp"
 
@@ -100,7 +101,7 @@ bool is_stable(Model& model, const Eigen::VectorXd& xi, const Eigen::VectorXd& s
 // Each starts from the solution before, so that a beam that bends far takes the equilibrium that its straight form
 // leads to.                                                                                                     (S90)
 template <class Solve>
-bool soften(const System& given, Solve&& solve) {
+bool soften(const System& given, double load_step, Solve&& solve) {
     Problem problem = given.problem();
     Beam& beam = problem.beam;
     beam = with_numbers_of_material(beam);
@@ -108,7 +109,7 @@ bool soften(const System& given, Solve&& solve) {
     const double load = problem.beam.model == ModelKind::rigid
                             ? 0
                             : force_size(given) * length * length / problem.beam.bending_stiffness();
-    const auto steps = static_cast<int>(std::clamp(std::ceil(load / kLoadStep), 1.0, kMostLoadSteps));
+    const auto steps = static_cast<int>(std::clamp(std::ceil(load / load_step), 1.0, kMostLoadSteps));
     for (int step = 1; step < steps; ++step) {
         beam.youngs_modulus = stiffness * steps / step;
         System stiffer(problem);
@@ -224,46 +225,18 @@ FollowingState left_behind(System& system, const Eigen::VectorXd& xi) {
     return {xi, (later.xi - earlier.xi) / (2 * dt), zero};
 }
 
-constexpr int kRodRounds = 50;         // each round divides the error by about five
-constexpr double kSettledRod = 1e-12;  // [rad]
-
-// The angle at which a straight rod touches the cam at t = 0 with its lower side (+1) or its upper side (−1): the
-// distance of the axis C from its face is h at that normal. The rod on the disc at its normal is a better guess in
-// every round, and exact for a disc.
-double rod_angle(const System& system, double side) {
-    const Vec2 axis = system.cam().axis();
-    double angle = std::atan2(axis.y, axis.x), change = 1;
-    for (int i = 0; i < kRodRounds && std::fabs(change) > kSettledRod; ++i) {
-        const OsculatingDisc disc = system.cam().disc(0, side * perp(unit(angle)));
-        const double reach = disc.radius + system.offset();
-        const double next =
-            std::atan2(disc.centre.y, disc.centre.x) + side * std::asin(std::min(1.0, reach / norm(disc.centre)));
-        change = next - angle;
-        angle = next;
-    }
-    return angle;
-}
-
 // The rigid rod on that side of the cam against which weight and torque press it, with the static penetration.
 Eigen::VectorXd rod_on_cam(const System& system) {
     const Problem& problem = system.problem();
-    const double lever = problem.hub.radius + 0.5 * problem.beam.length;
-    const double torque = system.drive().has_torque() ? system.drive().torque(0) : 0;
-    const double weight = problem.gravity * problem.beam.line_density() * problem.beam.length;
-    const auto moment = [&](double angle) {
-        return torque - weight * lever * std::cos(angle) + (system.spring() ? system.spring()->torque(angle, 0) : 0);
-    };
-    const double above = rod_angle(system, 1), below = rod_angle(system, -1);
-    const double side = moment(above) > 0 && moment(below) > 0 ? -1 : 1;
-    const double touching = side > 0 ? above : below;
-    const double distance = norm(system.cam().disc(0, side * perp(unit(touching))).centre);
+    const Lever lever(problem);
+    const Lever::State rest = lever.at(-problem.cam->phase);
+    const double moment = std::max(lever.pressing_moment(rest.motion.theta), 0.0);
     const double penetration =
         problem.contact.model == ContactModel::restitution
             ? 0
-            : std::pow(std::max(-side * moment(touching), 0.0) / (distance * system.normal_law().stiffness),
-                       1 / contact_exponent(problem));
+            : std::pow(moment / (rest.foot * system.normal_law().stiffness), 1 / contact_exponent(problem));
     Eigen::VectorXd xi = Eigen::VectorXd::Zero(system.coordinates());
-    xi[0] = touching - side * penetration / distance;
+    xi[0] = rest.motion.theta - lever.side() * penetration / rest.foot;
     return xi;
 }
 
@@ -274,7 +247,7 @@ HeldBeam held_beam(const System& given, double angle) {
     const int n = system.coordinates();
     HeldBeam held{Eigen::VectorXd::Zero(n), false};
     held.xi[0] = angle;
-    if (!soften(given, [&](System& softer) { return clamped_equilibrium(softer, angle, held.xi); }))
+    if (!soften(given, kLoadStep, [&](System& softer) { return clamped_equilibrium(softer, angle, held.xi); }))
         throw StepFailure("no static equilibrium was found for the beam held at the initial angle");
     held.unstable = n > 1 && !is_stable(system.model(), held.xi, scales(system.problem(), n));
     return held;
@@ -290,7 +263,8 @@ RestingBeam resting_beam(const System& given) {
         softer.set_phase(flight);
         return equilibrium_on_cam(softer, 0, beam.start);
     };
-    if (!soften(given, rest)) throw StepFailure("no equilibrium of the beam resting on the cam was found");
+    if (!soften(given, kRestingLoadStep, rest))
+        throw StepFailure("no equilibrium of the beam resting on the cam was found");
     if (system.problem().cam->speed != 0) {
         CamFollowing following(system, beam.start.xi);
         beam.left_behind = !following.find();

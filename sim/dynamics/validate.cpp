@@ -13,6 +13,7 @@
 #include "sim/beam/table_smoothing.hpp"
 #include "sim/cam/cam_shape.hpp"
 #include "sim/cam/check_profile.hpp"
+#include "sim/cam/lever.hpp"
 #include "sim/dynamics/constants.hpp"
 #include "sim/dynamics/initial.hpp"
 #include "sim/dynamics/system.hpp"
@@ -183,6 +184,20 @@ StartGap gap_at_start(const Problem& p) {
     return {c.gap, c.x};
 }
 
+// Most cams stay away from the tip by far, and need no search.
+void warn_of_tip(Issues& out, const Problem& p, const CamShape& shape) {
+    const double away = norm(p.cam->centre), tip = p.hub.radius + p.beam.length;
+    if (away + shape.largest_slope() <= tip) return;
+    const double farthest = Lever(p).farthest_foot();
+    if (farthest > tip)
+        out.warning(
+            "cam.centre",
+            fmt::format("a straight lever touches the cam up to {:.4g} m from the axis of the hub, but the beam "
+                        "ends at {:.4g} m: it rests on the cam with its tip, and theta_follow, lift_error and "
+                        "jump speeds are those of a longer lever; move the cam nearer",
+                        farthest, tip));
+}
+
 void check_geometry(Issues& out, const Problem& p, const CamShape& shape) {
     const Cam& cam = *p.cam;
     const double d = contact_offset(p), away = norm(cam.centre), a = p.hub.radius;
@@ -190,8 +205,8 @@ void check_geometry(Issues& out, const Problem& p, const CamShape& shape) {
     if (nearest_axis <= 0) {
         out.error("cam.centre",
                   fmt::format("the cam passes over the hub's axis: its own axis is {:g} m away, its outline "
-                              "reaches {:g} m from there; move it away",
-                              away, shape.largest_reach()));
+                              "reaches {:g} m from there; move it away{}",
+                              away, shape.largest_reach(), hint_of_unit(p)));
         return;
     }
     if (a > nearest_axis) {
@@ -210,6 +225,7 @@ void check_geometry(Issues& out, const Problem& p, const CamShape& shape) {
                         reach, nearest_axis));
         return;
     }
+    warn_of_tip(out, p, shape);
     const bool rigid = p.beam.model == ModelKind::rigid || p.beam.modes == 0;
     if (rigid && is_prescribed(p.hub.drive) && p.contact.model == ContactModel::restitution) {
         out.error("contact.model",

@@ -108,7 +108,7 @@ TEST(CamShape, LawIsItsFormulaToRounding) {
     for (double phi = 0.001; phi < kFullTurn; phi += 0.00931) {
         const LeverMotion m = motion.at(phi);
         const double alpha = m.theta + std::numbers::pi / 2 + phi;
-        const CamPoint exact = touched_point(m, p.cam->centre, 0), is = shape.at(alpha);
+        const CamPoint exact = touched_point(m, p.cam->centre, 0, 1), is = shape.at(alpha);
         EXPECT_NEAR(is.h, exact.h, 4e-16) << phi;
         EXPECT_NEAR(is.slope, exact.slope, 6e-16) << phi;
         EXPECT_NEAR(is.radius, exact.radius, 6e-15) << phi;

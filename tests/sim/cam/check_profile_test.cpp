@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cstring>
 #include <limits>
 
 #include "sim/cam/cam_shape.hpp"
@@ -74,6 +75,8 @@ TEST(CheckProfile, KnowsWhichAnglesALeverCanReach) {
     expect_error(changed([](LawProfile& p) { p.lowest = -5 * kDegree; }), "cam.profile.lowest",
                  AllOf(HasSubstr("between -5 and 3 deg"), HasSubstr("between 0 and 82 deg")));
     expect_error(changed([](LawProfile& p) { p.lowest = 85 * kDegree; }), "cam.profile.lowest", HasSubstr("93 deg"));
+    expect_error(changed([](LawProfile& p) { p.lowest = -95 * kDegree; }), "cam.profile.lowest",
+                 AllOf(HasSubstr("between -95 and -87 deg"), HasSubstr("\"lowest\" between -90 and -8 deg")));
     // With the face 0.1 m below the pivot a lever at 14 deg would lie below the axis: asin(0.1/0.25) = 23.6 deg.
     expect_error(lift_and_return(), "cam.profile.lowest", HasSubstr("23.5782"), 0.1);
     Problem p = with_profile(lift_and_return());
@@ -112,6 +115,30 @@ TEST(CheckProfile, SaysWhatCuresAnUndercut) {
         for (LawSegment& each : smaller.segments) each.rise *= factor + less;
         EXPECT_EQ(errors(smaller, 0.005).empty(), enough) << factor;
     }
+}
+
+// The mirror image of a lever above the cam, below it, must be lowered by as much as that one must be raised.
+TEST(CheckProfile, SaysWhatCuresAnUndercutBelowTheCam) {
+    const LawProfile above = changed([](LawProfile& p) {
+        p.lowest = 5 * kDegree;
+        p.segments.back().over = 40 * kDegree;
+    });
+    LawProfile below = above;
+    below.lowest = -above.lowest;
+    std::ranges::reverse(below.segments);
+    const auto remedy = [](const LawProfile& profile, const char* change) {
+        const std::vector<Issue> issues = errors(profile, 0.005);
+        const std::size_t at = issues.empty() ? std::string::npos : issues[0].message.find(change);
+        double angle = 0;
+        if (at != std::string::npos) std::sscanf(issues[0].message.c_str() + at + std::strlen(change), "%lf", &angle);
+        return angle;
+    };
+    const double raised = remedy(above, "raise \"lowest\" to at least "),
+                 lowered = remedy(below, "lower \"lowest\" to at most ");
+    EXPECT_GT(raised, 5);
+    EXPECT_NEAR(lowered, -raised, 1e-9);
+    below.lowest = lowered * kDegree;
+    EXPECT_TRUE(errors(below, 0.005).empty());
 }
 
 // With an offset alone, distance from the pivot helps.
@@ -206,6 +233,48 @@ TEST(CheckProfile, KnowsCamsThatReachThePivotOrTheHub) {
     EXPECT_FALSE(validate(p).empty());
     p.initial.angle = 22 * kDegree + 1e-9;
     EXPECT_TRUE(validate(p).empty());
+}
+
+// The only warning of a profile or of the place of its cam.
+std::string warning(const Problem& p) {
+    const std::vector<Issue> issues = validate(p);
+    return issues.size() == 1 && !issues[0].fatal ? issues[0].path + ": " + issues[0].message : "";
+}
+
+TEST(CheckProfile, WarnsOfPointsThatDoNotDetermineTheCurvature) {
+    const auto rounded_triangle = [](double alpha) {
+        return std::pair(0.04 + 0.004 * std::cos(3 * alpha), -0.012 * std::sin(3 * alpha));
+    };
+    EXPECT_TRUE(validate(with_profile(points_of(120, rounded_triangle))).empty());
+    EXPECT_THAT(warning(with_profile(points_of(30, rounded_triangle))),
+                AllOf(HasSubstr("cam.profile: the radius of curvature at"), HasSubstr("is 0.006842 m, but 0.002903 m"),
+                      HasSubstr("too far")));
+    // Noise of 10 µm on a disc.
+    Dice dice(3);
+    PointsProfile noisy = circle(100, 0.03);
+    for (std::vector<double>* each : {&noisy.x, &noisy.y})
+        for (double& x : *each) x += dice.about_zero(5e-6);
+    EXPECT_THAT(warning(with_profile(noisy)), HasSubstr("too noisy"));
+    EXPECT_TRUE(validate(with_profile(circle(24, 0.03))).empty());
+}
+
+TEST(CheckProfile, HintsAtTheUnitOfPointsThatReachBeyondTheHub) {
+    PointsProfile points = circle(60, 21.5);
+    expect_error(points, "cam.centre", AllOf(HasSubstr("reaches 21.5 m"), HasSubstr("\"units\": {\"COLUMN\": \"mm\"")));
+    points.x[12] *= 0.9;
+    points.y[12] *= 0.9;
+    expect_error(points, "cam.profile", AllOf(HasSubstr("not convex"), HasSubstr("in mm")));
+}
+
+// The straight lever touches the disc at most √((|C| + e)² − R²) from the hub.
+TEST(CheckProfile, WarnsOfABeamThatEndsBeforeTheContact) {
+    Problem p;
+    p.cam->centre = {1.05, 0};
+    p.initial.angle = 1;
+    EXPECT_THAT(warning(p), AllOf(HasSubstr("cam.centre: "), HasSubstr("up to 1.065 m"), HasSubstr("ends at 1 m")));
+    EXPECT_NEAR(Lever(p).farthest_foot(), std::sqrt(1.07 * 1.07 - 0.01), 1e-9);
+    p.cam->centre = {0.95, 0};
+    EXPECT_EQ(warning(p), "");
 }
 
 // Random profiles, most of which are no outlines: each has an error, or a shape whose curvature is positive.

@@ -1,5 +1,6 @@
 #include "sim/cam/lever.hpp"
 
+#include "sim/cam/check_profile.hpp"
 #include "tests/sim/cam/profiles.hpp"
 #include "tests/sim/support.hpp"
 
@@ -37,6 +38,88 @@ TEST(Lever, FollowsTheLawOfItsProfile) {
             EXPECT_NEAR(norm(contact - (s.foot * u - offset * perp(u))), 0, 1e-13);
         }
     }
+}
+
+// The mirror image in the vertical line through the pivot: the beam lies on the left of it, the cam turns the other
+// way.
+Problem on_the_left(Problem p) {
+    p.cam->centre.x = -p.cam->centre.x;
+    p.cam->speed = -p.cam->speed;
+    p.cam->phase = -p.cam->phase;
+    p.initial.angle = std::numbers::pi - p.initial.angle;
+    if (auto& spring = p.hub.spring) spring->free_angle = std::numbers::pi - spring->free_angle;
+    auto& law = std::get<LawProfile>(*p.cam->profile);
+    law.lowest = std::numbers::pi - law.lowest;
+    law.segments.back().over = 40 * kDegree;
+    std::ranges::reverse(law.segments);
+    return p;
+}
+
+// The mirror image in the line through the pivot and the axis of the cam: the beam lies below the cam and is pressed
+// upwards.
+Problem below_the_cam(Problem p) {
+    p.gravity = -p.gravity;
+    p.cam->speed = -p.cam->speed;
+    p.cam->phase = -p.cam->phase;
+    p.initial.angle = -p.initial.angle;
+    if (auto& spring = p.hub.spring) spring->free_angle = -spring->free_angle;
+    auto& law = std::get<LawProfile>(*p.cam->profile);
+    law.lowest = -law.lowest;
+    law.segments.back().over = 40 * kDegree;
+    std::ranges::reverse(law.segments);
+    return p;
+}
+
+// The mirrored lever rests on the mirrored cam: same speeds, lengths and radii, mirrored angles.
+TEST(Lever, MirrorImagesHaveMirroredNumbers) {
+    Problem p = lift_and_return_lever();
+    p.contact.offset = 0.01;
+    p.cam->phase = 0.7;
+    p.cam->speed = 5;
+    p.hub.spring = HubSpring{0.5, -60 * kDegree, 0.02};
+    for (const InitialShape shape : {InitialShape::straight, InitialShape::resting}) {
+        p.initial.shape = shape;
+        const Lever lever(p);
+        const Lever::Summary own = lever.summary();
+        const std::vector<double> times{0, 0.1, 0.5, 0.9};
+        const std::vector<double> follow = series(p, "theta_follow", times), error = series(p, "lift_error", times);
+        for (const bool left : {true, false}) {
+            const Problem image = left ? on_the_left(p) : below_the_cam(p);
+            const auto mirrored = [&](double theta) { return (left ? std::numbers::pi : 0) - theta; };
+            ASSERT_TRUE(check_profile(image).empty());
+            const Lever other(image);
+            EXPECT_EQ(other.side(), -1);
+            for (double phi = 0; phi < kFullTurn; phi += 0.11) {
+                const Lever::State a = lever.at(phi), b = other.at(-phi);
+                EXPECT_NEAR(b.motion.theta, mirrored(a.motion.theta), 2e-15);
+                EXPECT_NEAR(b.motion.velocity, a.motion.velocity, 1e-14);
+                EXPECT_NEAR(b.motion.acceleration, -a.motion.acceleration, 1e-13);
+                EXPECT_NEAR(b.motion.jerk, a.motion.jerk, 1e-9);
+                EXPECT_NEAR(b.foot, a.foot, 1e-15);
+                EXPECT_NEAR(other.pressing_moment(b.motion.theta), lever.pressing_moment(a.motion.theta), 1e-14);
+            }
+            const Lever::Summary s = other.summary();
+            EXPECT_NEAR(s.base_radius, own.base_radius, 1e-16);
+            EXPECT_NEAR(s.rho_min, own.rho_min, 1e-15);
+            EXPECT_NEAR(s.pressure_angle_max, own.pressure_angle_max, 1e-14);
+            ASSERT_TRUE(s.jump && own.jump);
+            EXPECT_NEAR(s.jump->speed, own.jump->speed, 1e-12);
+            EXPECT_NEAR(s.jump->phi, kFullTurn - own.jump->phi, 1e-6);
+            const std::vector<double> b = series(image, "theta_follow", times), e = series(image, "lift_error", times);
+            for (std::size_t i = 0; i < times.size(); ++i) {
+                EXPECT_NEAR(b[i], mirrored(follow[i]), 2e-15) << times[i];
+                EXPECT_NEAR(e[i], -error[i], 1e-9) << times[i];
+            }
+        }
+    }
+}
+
+// A beam that has turned once more has the lever's angle, too.
+TEST(Lever, HasTheWholeTurnsOfTheBeam) {
+    Problem p = lift_and_return_lever();
+    const double follow = Lever(p).at(1).motion.theta;
+    p.initial.angle += 2 * kFullTurn;
+    EXPECT_NEAR(Lever(p).at(1).motion.theta, follow + 2 * kFullTurn, 1e-14);
 }
 
 TEST(Lever, ContactIsWhereTheClosedFormSays) {

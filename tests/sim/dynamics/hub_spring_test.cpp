@@ -76,6 +76,26 @@ TEST(HubSpring, PressesARestingBeamOnTheCam) {
     EXPECT_NEAR(at_start("contact_force") * at_start("contact_x"), moment, 1e-9 * moment);
 }
 
+// The same of a leaf without weight that the spring bends: its slope at the contact, 0.08, shortens the lever arm by half
+// of its square.
+TEST(HubSpring, BendsARestingLeafOnTheCam) {
+    Problem p;
+    p.hub.spring = {0.6, -0.7, 0};
+    p.beam.length = 0.12;
+    p.beam.section = Rectangle{0.012, 0.0009};
+    p.beam.material = Material::steel;
+    p.cam->centre = {0.075, 0};
+    p.cam->radius = 0.02;
+    p.cam->eccentricity = p.cam->speed = 0;
+    p.contact.stiffness.reset();
+    p.initial.shape = InitialShape::resting;
+    p.gravity = 0;
+    const auto at_start = [&](const char* name) { return series(p, name, {0}).front(); };
+    EXPECT_GT(at_start("tip_deflection"), 0.005);
+    const double moment = 0.6 * (at_start("theta") + 0.7);
+    EXPECT_NEAR(at_start("contact_force") * at_start("contact_x"), moment, 0.0032 * moment);
+}
+
 // The hub turns at a constant rate: the drive gives what the spring takes.
 TEST(HubSpring, ADriveOfGivenAngleBalancesIt) {
     for (const Method method : {Method::automatic, Method::rk8}) {
