@@ -22,7 +22,8 @@ Vec2 ContactGeometry::facing(const BeamPoint& at) const {
 }
 
 // A starting point for Newton's method: the foot on the straight beam if there is only one foot, else the nearest of a
-// few points, which is not where a straight beam is farther by twice the deflection.
+// few points, which is not where a straight beam is farther by twice the deflection. The distance of a point is that
+// from the disc that osculates the outline where its normal is the direction of the point from the axis.
 double ContactGeometry::near_foot(const Model& model, const GapBound& bound, double t) const {
     const double* q = model.coordinates();
     const Vec2 along = unit(q[0]), across = perp(along);
@@ -30,11 +31,12 @@ double ContactGeometry::near_foot(const Model& model, const GapBound& bound, dou
     const double straight_foot = std::clamp(dot(faced.centre, along) - hub_radius_, 0.0, length_);
     if (bound.nearly_straight(q + 1)) return straight_foot;
     const double none[kMaxSize] = {}, step = length_ / samples_;
-    const auto distance = [&](const BeamPoint& at) {
-        const OsculatingDisc disc = cam_.is_disc() ? faced : cam_.nearest(t, at.r, facing(at));
-        return norm(at.r - disc.centre) - disc.radius;
+    const auto distance = [&](const Vec2& r) {
+        const auto radial = [&] { return (r - cam_.axis()) * (1 / norm(r - cam_.axis())); };
+        const OsculatingDisc disc = cam_.is_disc() ? faced : cam_.disc(t, radial());
+        return norm(r - disc.centre) - disc.radius;
     };
-    const auto straight = [&](double x) { return distance({(hub_radius_ + x) * along, along, {}, {}, {}}); };
+    const auto straight = [&](double x) { return distance((hub_radius_ + x) * along); };
     const double most = straight(straight_foot) + step + 2 * bound.deflection(q, none);
     double best = std::numeric_limits<double>::infinity(), nearest = straight_foot;
     BeamPoint at;
@@ -42,7 +44,7 @@ double ContactGeometry::near_foot(const Model& model, const GapBound& bound, dou
         const double x = length_ * i / samples_;
         if (straight(x) > most) continue;
         model.point(x, at);
-        if (const double away = distance(at); away < best) {
+        if (const double away = distance(at.r); away < best) {
             best = away;
             nearest = x;
         }
