@@ -82,7 +82,13 @@ void write_columns(const FileTarget& file, const Columns& table) {
 
 const TableColumn* ColumnTable::column(std::string_view name) const {
     const auto found = std::ranges::find(columns, name, &TableColumn::name);
-    return found == columns.end() ? nullptr : &*found;
+    if (found != columns.end()) return &*found;
+    const auto is_without_unit = [name](const TableColumn& c) {
+        const std::string_view heading(c.name), bare = heading.substr(0, heading.find_last_of("[("));
+        return !c.unit.empty() && bare.substr(0, bare.find_last_not_of(' ') + 1) == name;
+    };
+    const auto first = std::ranges::find_if(columns, is_without_unit);
+    return std::ranges::count_if(columns, is_without_unit) == 1 ? &*first : nullptr;
 }
 
 const std::vector<double>* ColumnTable::find(std::string_view name) const {

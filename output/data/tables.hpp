@@ -30,7 +30,8 @@ struct ColumnTable {
 
     std::size_t rows() const { return columns.empty() ? 0 : columns.front().values.size(); }
     std::vector<std::string> names() const;
-    const TableColumn* column(std::string_view name) const;  // nullptr: there is none
+    // nullptr: there is none. "X" is also the only column "X [mm]".
+    const TableColumn* column(std::string_view name) const;
     // The numbers of a column, nullptr if there is none. Throws IoError if it has a `problem`.
     const std::vector<double>* find(std::string_view name) const;
     std::string row_name(std::size_t row) const;  // "line 17" of CSV, else "row 15"

@@ -103,6 +103,7 @@ constexpr Absent kAbsent[] = {
     {WordKind::option, "--text", "it was withdrawn: texts are drawn as outlines"},
 
     {WordKind::ending, ".apng .eps .glb .tif .tiff .vtt .srt", "this format was withdrawn"},
+    {WordKind::ending, ".pdf .svg", "figures and beamcam render --at T -o FILE are drawn as .pdf and .svg"},
 };
 
 std::string sentence(WordKind kind, auto&& matches) {

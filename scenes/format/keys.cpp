@@ -64,8 +64,10 @@ void visit(SceneVisitor& v, Scene& scene) {
         sim::written_if(scene.units != render::Units{}, "units"),
         [&scene](sim::Visitor& inside) {
             auto& s = static_cast<SceneVisitor&>(inside);
-            s.choice(sim::derived("angle"), scene.units.degrees, {{false, "rad"}, {true, "deg"}},
-                     "Unit of angles; by default that of initial.angle or cam.phase, if it is a text with a unit.");
+            s.choice(
+                sim::derived("angle"), scene.units.degrees, {{false, "rad"}, {true, "deg"}},
+                "Unit of angles; by default that of initial.angle, cam.phase or cam.profile.lowest, the first that is "
+                "a text with a unit.");
             s.choice(sim::derived("speed"), scene.units.speed,
                      {{render::SpeedUnit::automatic, "auto"},
                       {render::SpeedUnit::radians, "rad/s"},
@@ -77,6 +79,7 @@ void visit(SceneVisitor& v, Scene& scene) {
         },
         "Units of angles and speeds in films and figures.", nullptr);
     v.check([&scene](ObjectReader& r) {
+        check_overrides(r);
         check_physics(r, scene.problem);
         if (!r.diagnostics().any())
             scene.notes = sim::assumptions(scene.problem, written_value(*r.node(), "contact.stiffness") != nullptr);

@@ -110,10 +110,11 @@ std::optional<std::vector<double>> ObjectReader::column_value(const Node& node, 
     FileColumn read = read_file_column(folder / column.first, column.second, unit.resolved(), false, own_unit);
     if (same(unit.resolved(), dimension::kAngle) && first_wrap(read.values, kFullTurn)) {
         unwrap(read.values, kFullTurn);
-        warn(key,
-             ": the column {} jumps by more than half a turn; it is read as an angle that begins again after "
-             "360 deg",
-             in_quotes(column.second));
+        if (!columns_)  // the angles of an outline go round once, and may begin anywhere
+            warn(key,
+                 ": the column {} jumps by more than half a turn; it is read as an angle that begins again after "
+                 "360 deg",
+                 in_quotes(column.second));
     }
     const auto outside = std::ranges::find_if(read.values, [&](double value) { return !range.contains(value); });
     if (check_ranges_ && outside != read.values.end())

@@ -283,7 +283,10 @@ QuantityText parse_quantity(std::string_view text, const Dimension* expected) {
     double value = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (error == std::errc::result_out_of_range) return {std::nullopt, "the number is out of the range of a double"};
-    if (error != std::errc{} || !std::isfinite(value)) return {std::nullopt, "it does not begin with a number"};
+    if (error != std::errc{} || !std::isfinite(value))
+        return {std::nullopt, text.find(':') == text.npos ? "it does not begin with a number"
+                                                          : "it does not begin with a number, and events are names of "
+                                                            "single instants (\"at\", \"from\", \"to\")"};
     std::string_view unit(end, static_cast<std::size_t>(digits.data() + digits.size() - end));
     while (unit.starts_with(' ')) unit.remove_prefix(1);
     if (unit.empty()) return {Quantity{value, {}}, {}};

@@ -52,14 +52,17 @@ std::string about_stiffness(Problem problem) {
     const double assumed = contact_stiffness(problem), exponent = contact_exponent(problem);
     problem.contact.stiffness.reset();
     problem.contact.exponent.reset();
+    std::string text = fmt::format(
+        "contact.stiffness: none is given, so {:g} N/m^{:g} is assumed, which suits the paper's example; \"hertz\" is ",
+        assumed, exponent);
+    if (problem.cam->profile && !is_line_contact(problem))
+        return text + "that of a sphere with the cam's radius of curvature at the contact";
     const std::string contact =
         is_line_contact(problem)
             ? fmt::format("a line contact of {:g} m", std::get<Rectangle>(*problem.beam.section).width)
             : fmt::format("a sphere of {:g} m on a plane", problem.cam->radius);
-    return fmt::format(
-        "contact.stiffness: none is given, so {:g} N/m^{:g} is assumed, which suits the paper's example; "
-        "\"hertz\" is {:.3g} N/m^{:.3g} here, that of {}",
-        assumed, exponent, contact_stiffness(problem), contact_exponent(problem), contact);
+    return text + fmt::format("{:.3g} N/m^{:.3g} here, that of {}", contact_stiffness(problem),
+                              contact_exponent(problem), contact);
 }
 
 }  // namespace

@@ -129,6 +129,15 @@ TEST(TableReader, SaysHowAFileWasRead) {
     EXPECT_EQ(table.row_name(0), "line 4");
 }
 
+TEST(TableReader, AColumnHasItsNameWithoutTheUnit) {
+    const ColumnTable table = parse_csv("X [mm],Y(mm),r [m],r (mm),[deg]\n1,2,3,4,5\n", "a.csv");
+    ASSERT_TRUE(table.column("X") && table.column("Y"));
+    EXPECT_EQ(table.column("X")->unit, "mm");
+    EXPECT_EQ(table.column("Y")->values[0], 2);
+    EXPECT_EQ(table.column("r (mm)")->values[0], 4);
+    for (const char* name : {"r", "x", "X [", "", "X [mm"}) EXPECT_EQ(table.column(name), nullptr) << name;
+}
+
 // A class by its number, and an exponent of −∞.
 TEST(TableReader, ReadsTheTablesOfSweeps) {
     const ColumnTable table =

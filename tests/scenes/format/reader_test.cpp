@@ -343,7 +343,7 @@ TEST(Reader, AnOutlineIsReadFromAFile) {
     const testing::Folder folder;
     std::string rows = "x [mm];y;phi;r\n", clockwise = rows;
     for (int i = 0; i < 60; ++i) {
-        const double angle = 6.0 * i, a = angle * std::numbers::pi / 180;
+        const double angle = i < 25 ? 6.0 * i : 6.0 * i - 360, a = angle * std::numbers::pi / 180;
         rows += fmt::format("{};{};{};{}\n", 80 * std::cos(a), 0.08 * std::sin(a), angle, 8);
     }
     folder.write("cam.csv", rows);
@@ -351,10 +351,11 @@ TEST(Reader, AnOutlineIsReadFromAFile) {
         return read_scene({(folder / "scene.json").string(), R"({"cam": {"profile": {)" + keys + "}}}", true});
     };
     for (const char* keys :
-         {R"("file": "cam.csv", "x": "x [mm]", "y": "y")", R"("x": "@cam.csv:x [mm]", "y": "@cam.csv:y")",
+         {R"("file": "cam.csv", "x": "x", "y": "y")", R"("x": "@cam.csv:x [mm]", "y": "@cam.csv:y")",
           R"("file": "cam.csv", "angle": "phi", "radius": "r", "units": {"phi": "deg", "r": "cm"})"}) {
         const Reading reading = read_profile(keys);
         ASSERT_TRUE(reading.scene) << reading.report();
+        EXPECT_TRUE(reading.messages.empty()) << reading.report();
         const auto& points = std::get<sim::PointsProfile>(*reading.scene->problem.cam->profile);
         ASSERT_EQ(points.x.size(), 60u);
         EXPECT_NEAR(points.x[10], 0.04, 1e-15) << keys;
@@ -392,6 +393,15 @@ TEST(Reader, TheEndingChoosesTheCodec) {
     for (std::size_t i = 0; i < 4; ++i)
         EXPECT_EQ(std::get<PictureOutput>(reading.scene->outputs[i]).encoding.codec, expected[i]);
     EXPECT_EQ(std::get<PictureOutput>(reading.scene->outputs[1]).span.fps, (FrameRate{25, 1}));
+}
+
+TEST(Reader, WarnsOfAnOverrideThatEachComparedMotionReplaces) {
+    const std::string scene = R"({"outputs": [{"type": "video", "compare": [{"set": {"cam.speed": 5, "beam.modes": 3}},
+        {"set": {"cam.speed": 6}}]}]})";
+    const auto warnings = [&](const char* change) { return messages(read_scene({"s.json", scene, true}, {change})); };
+    EXPECT_THAT(warnings("cam.speed=7"), ElementsAre(HasSubstr("cam.speed has no effect on outputs.0")));
+    EXPECT_THAT(warnings("beam.modes=4"), ::testing::IsEmpty());
+    EXPECT_THAT(messages(read(scene)), ::testing::IsEmpty());
 }
 
 TEST(Reader, ComparedMotionsAreTheSceneWithChanges) {
