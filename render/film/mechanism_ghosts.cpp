@@ -1,4 +1,5 @@
 // Other motions in the panel of the first one, and beams at measured angles.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -52,9 +53,19 @@ Outline ghost_outline(const MechanismScene& s, const DrawnBeam& beam) {
     return all;
 }
 
+// The outline of a cam with a profile; else empty.
+std::vector<Vec2> cam_edge(const MechanismScene& s, const sim::Problem& problem, const sim::Pose& pose) {
+    std::vector<Vec2> edge;
+    if (problem.cam && problem.cam->profile)
+        for (const Vec2 p : placed_outline(problem, pose, outline_points(200))) edge.push_back(s.on(s.at.px(p)));
+    return edge;
+}
+
+bool is_near(const Vec2& a, const Vec2& b) { return norm(a - b) <= 0.5; }  // [px]
+
 }  // namespace
 
-// Discs are drawn only where they differ from the first motion's.
+// Cams are drawn only where they differ from the first motion's.
 void draw_ghost_outlines(const MechanismScene& s) {
     for (int m = 0; m < s.at.context.members(); ++m) {
         if (m == s.at.member) continue;
@@ -62,10 +73,8 @@ void draw_ghost_outlines(const MechanismScene& s) {
         const Color color = s.at.context.member_color(m);
         const sim::Pose& pose = s.at.context.pose(m, s.frame);
         const std::optional<sim::Cam>& cam = s.at.context.motion(m).problem.cam;
-        if (cam && cam->profile && !(s.at.problem().cam && cam->profile == s.at.problem().cam->profile)) {
-            std::vector<Vec2> edge;
-            for (const Vec2 p : placed_outline(s.at.context.motion(m).problem, pose, outline_points(200)))
-                edge.push_back(s.on(s.at.px(p)));
+        const std::vector<Vec2> edge = cam_edge(s, s.at.context.motion(m).problem, pose);
+        if (!edge.empty() && !std::ranges::equal(edge, cam_edge(s, s.at.problem(), s.pose), is_near)) {
             s.canvas.polyline(edge);
             s.canvas.stroke({color.faded(0.8), 2 * s.at.unit, {8 * s.at.unit, 6 * s.at.unit}, Cap::butt});
         }
