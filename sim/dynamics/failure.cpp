@@ -209,6 +209,8 @@ std::string cause(const Failure& failure, System& system, const BeamState& beam)
             return large_deflection(p, beam) ? deflection_message(p, beam) : inertia_message(p);
         case Stop::stuck:
             return large_deflection(p, beam) ? deflection_message(p, beam) : stuck_message(p);
+        case Stop::refused:
+            return failure.message;
         case Stop::method:
             break;
     }

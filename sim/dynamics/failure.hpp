@@ -14,10 +14,11 @@ enum class Stop {
     passed_cam,    // the beam was pressed over the centre of the disc
     locked,        // friction presses the beam into the cam
     stuck,         // events follow each other without progress in time
+    refused,       // the tangents of the motion are not known: `message`
     method         // the integrator failed: `message`
 };
 
-// Thrown by a run, not by the integrator.
+// Thrown by a run or its tangents, not by the integrator.
 struct RunStopped : StepFailure {
     RunStopped(Stop reason, const char* what) : StepFailure(what), why(reason) {}
     Stop why;

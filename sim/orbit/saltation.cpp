@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/base/ode.hpp"
+#include "sim/dynamics/failure.hpp"
 #include "sim/orbit/constants.hpp"
 #include "sim/run/constants.hpp"
 
@@ -67,7 +67,8 @@ void Saltation::require_curvature(const Instant& at) {
     const double alpha = probe_.cam().alpha(at.t, near_.normal);
     const CamShape& cam = probe_.cam().shape();
     if (std::fabs(cam.at(alpha + kSide).radius - cam.at(alpha - kSide).radius) > kJump * near_.disc.radius)
-        throw StepFailure(
+        throw RunStopped(
+            Stop::refused,
             "tangents are not known where sustained contact passes a jump of the cam's radius of curvature: use "
             "compliant contact, or a profile whose curvature does not jump");
 }

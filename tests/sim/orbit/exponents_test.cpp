@@ -49,6 +49,29 @@ TEST(Exponents_, SumOfARigidBeamOnAProfileIsThatOfImpactsAndDamper) {
     }
 }
 
+// A leaf follows a cam of arcs over their joints.
+TEST(Exponents_, OfSustainedContactOverAJumpOfTheRadiusAreRefused) {
+    Problem p = with_profile(tangent_arcs());
+    p.hub.spring = {0.6, -0.7, 0};
+    p.beam.length = 0.12;
+    p.beam.section = Rectangle{0.012, 0.0015};
+    p.beam.material = Material::steel;
+    p.beam.damping_ratio = {0.01};
+    p.cam->centre = {0.1, 0};
+    p.cam->speed = 10.5;
+    p.contact.model = ContactModel::restitution;
+    p.contact.restitution = 0.5;
+    p.initial.shape = InitialShape::resting;
+    try {
+        lyapunov_exponents(p, {0, 0, 1, 10});
+        FAIL() << "the exponents were computed";
+    } catch (const SolverError& refusal) {
+        EXPECT_THAT(refusal.what(), ::testing::HasSubstr("tangents are not known"));
+        EXPECT_THAT(refusal.what(), ::testing::HasSubstr("curvature does not jump"));
+        EXPECT_THAT(refusal.what(), ::testing::Not(::testing::HasSubstr("steps")));
+    }
+}
+
 // Differences from an upright rod grow by √(3 g/2 L), but it stands still.
 TEST(Exponents_, AnUnstableEquilibriumIsNoChaos) {
     Problem problem = PressedBeam().on_orbit(45);
