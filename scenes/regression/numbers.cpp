@@ -161,7 +161,7 @@ void cut(Node& a, Node& b, double horizon) {
         if (!before || !after) continue;
         std::vector<Node>&x = before->value.items, &y = after->value.items;
         for (std::vector<Node>* all : {&x, &y})
-            std::erase_if(*all, [&](const Node& event) { return time_of(event, time) > horizon; });
+            std::erase_if(*all, [&, time = time](const Node& event) { return time_of(event, time) > horizon; });
         for (std::vector<Node>* longer : {&x, &y})
             while (longer->size() > std::min(x.size(), y.size()) &&
                    std::fabs(time_of(longer->back(), time) - horizon) <= kTimeScale)

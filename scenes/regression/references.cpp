@@ -109,7 +109,8 @@ ReferenceUpdate::Changes ReferenceUpdate::carry_out(const References& references
                         references.file(existing.front()).string(), kDigestsFile));
     output::ensure_directory(references.folder());
     // The digests come first: they make the folder one of references, also if this run is killed.
-    std::ranges::stable_partition(changes.written, [](const std::string& name) { return name == kDigestsFile; });
+    std::stable_partition(changes.written.begin(), changes.written.end(),
+                          [](const std::string& name) { return name == kDigestsFile; });
     for (const std::string& name : changes.written) {
         output::FileTarget target(references.file(name));
         target.within = root;
