@@ -82,6 +82,8 @@ void check_end(ObjectReader& r, const char* key, double t) {
 }
 
 void check_span(ObjectReader& r, const FrameSpan& span, const Picture& picture) {
+    if (span.story && picture.compare.empty() && !r.context().scene.problem.cam && !r.diagnostics().failed("cam"))
+        r.reject("story", " needs a collision, but the scene has no cam");
     if (span.story && !picture.compare.empty())
         r.reject("story", " tells one motion, but the film compares {}; remove \"story\" or \"compare\"",
                  picture.compare.size());

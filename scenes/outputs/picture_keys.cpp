@@ -189,7 +189,7 @@ void visit_span(SceneVisitor& v, FrameSpan& span) {
     v.choice("story", span.story,
              "impact: the film tells the first collision after \"from\", from the fall to the rebound, with slow motion, "
              "freezes, texts, a camera that moves closer, and a layout; settle: it tells how the motion comes to a "
-             "contact that lasts, with time-lapse.");
+             "contact that lasts, faster and faster.");
     for (const char* key : {"to", "speed", "duration", "hold", "events"}) v.exclusive("story", key);
 }
 

@@ -18,7 +18,7 @@ namespace {
 using render::LayoutNode, render::PanelKind, render::PanelSpec, render::quantity;
 using sim::ChannelKind;
 
-constexpr double kShown = 3, kFade = 0.2;  // of captions [s of the film]
+constexpr double kShown = 2.5, kFade = 0.2;  // of captions [s of the film]
 
 Instant at_time(double t) { return {.kind = Instant::Kind::time, .t = t}; }
 
@@ -56,14 +56,23 @@ std::string touch_of(const sim::Collision& c) {
     return fmt::format("touches {} from the hub, at {}", quantity(c.x, "m"), quantity(std::abs(c.v_n_before), "m/s"));
 }
 
+// The first collision that begins at `from` or later, but not with the motion itself.
 const sim::Collision& collision_after(double from, const sim::Result& motion) {
-    const auto found = std::ranges::find_if(motion.collisions, [&](const auto& c) { return c.t_start > from; });
+    const auto found =
+        std::ranges::find_if(motion.collisions, [&](const auto& c) { return c.t_start > 0 && c.t_start >= from; });
     if (found == motion.collisions.end())
-        throw render::PictureError(
-            fmt::format("the story needs a collision, but the motion has none between {:g} s and {:g} s; a larger "
-                        "time.end may have one",
-                        from, motion.end_time));
+        throw render::PictureError(fmt::format(
+            "the story needs a collision, but the motion has none that begins between {:g} s and {:g} s{}", from,
+            motion.end_time, motion.collisions.empty() ? "" : "; another \"from\" or a larger time.end may have one"));
     return *found;
+}
+
+// A film that begins with a touch begins at the apex before it instead, or with the motion.
+void begin_before(double touch, const sim::Result& motion, FrameSpan& span) {
+    if (span.from < touch) return;
+    span.from = 0;
+    for (const sim::Apex& apex : sim::rebounds(motion))
+        if (apex.t < touch) span.from = apex.t;
 }
 
 // ---- "impact" ----------------------------------------------------------------------------------
@@ -113,7 +122,7 @@ std::string energy_at_apex(double touch, double apex, const sim::Problem& proble
     for (const Part& each : uses)
         if (each.size > 0.005 * all)
             to += fmt::format("{}{:.0f} % {}", to.empty() ? "" : ", ", 100 * each.size / all, each.name);
-    return from + ": " + to;
+    return "energy " + from + ": " + to;
 }
 
 // The mechanism from near, the whole of it, the contact in micrometres, and the force of the collision.
@@ -121,26 +130,49 @@ LayoutNode impact_layout(bool has_force, const Size& size) {
     using enum LayoutNode::Kind;
     const LayoutNode near = leaf({.kind = PanelKind::mechanism}, 2.6), overview = leaf({.kind = PanelKind::overview});
     if (!has_force) return group(columns, {near, overview});
-    const LayoutNode contact = leaf({.kind = PanelKind::close_up});
-    const LayoutNode force =
-        leaf({.kind = PanelKind::strip, .channels = {{ChannelKind::contact_force, 0}}, .by_collision = true});
+    const LayoutNode contact = leaf({.kind = PanelKind::close_up}),
+                     force = leaf({.kind = PanelKind::strip,
+                                   .channels = {{ChannelKind::contact_force, 0}},
+                                   .by_collision = true});
+    constexpr int kSmall = 540;  // height of a picture without room for the close-up [px]
     if (size.width < size.height) return group(rows, {near, group(columns, {overview, contact}, 1.4), force});
+    if (size.height < kSmall) return group(rows, {group(columns, {near, overview}, 1.3), force});
     return group(rows, {group(columns, {near, group(rows, {overview, contact})}, 2.4), force});
 }
 
-PictureOutput told_impact(PictureOutput film, const Scene& scene, const sim::Result& motion, const FindEvents& find) {
-    constexpr double kApproach = 2.5, kCollision = 3, kHold = 2.5;     // durations in the film [s]
+// The captions of a collision, from the first touch to `liftoff`.
+void tell_collision(PictureOutput& film, const sim::Collision& c, double liftoff) {
     constexpr double kAtTouch = 0.8, kAtPeak = 1.5, kAtLiftoff = 1.5;  // freezes [s]
-    constexpr double kNear = 2, kMove = 1.2;                           // zoom; duration of the camera's movement [s]
+    const double touch = c.t_start;
+    tell(film, touch, touch_of(c), kAtTouch);
+    if (c.t_peak && c.force_peak && *c.t_peak < liftoff)
+        tell(film, *c.t_peak,
+             fmt::format("largest force {}, {} after the touch", quantity(*c.force_peak, "N"),
+                         quantity(*c.t_peak - touch, "s")),
+             kAtPeak);
+    if (!c.t_end)
+        tell(film, liftoff, "stays in contact");
+    else if (liftoff > touch)
+        tell(film, liftoff,
+             "lifts off after " + quantity(liftoff - touch, "s") +
+                 (c.count > 1 ? " and " + counted(c.count, "impact") : ""),
+             kAtLiftoff);
+}
+
+PictureOutput told_impact(PictureOutput film, const Scene& scene, const sim::Result& motion, const FindEvents& find) {
+    constexpr double kApproach = 2.5, kCollision = 3, kHold = 2.5;  // durations in the film [s]
+    constexpr double kNear = 2, kMove = 1.2;                        // zoom; duration of the camera's movement [s]
     FrameSpan& span = film.span;
     const sim::Collision& c = collision_after(span.from, motion);
+    const double touch = c.t_start;
+    begin_before(touch, motion, span);
     // Of a contact that lasts, the film shows as much as of the time before it.
-    const double touch = c.t_start, liftoff = c.t_end.value_or(std::min(motion.end_time, touch + (touch - span.from))),
+    const double liftoff = c.t_end.value_or(std::min(motion.end_time, touch + (touch - span.from))),
                  length = liftoff - touch;
     const double next = (&c == &motion.collisions.back()) ? motion.end_time : (&c + 1)->t_start;
     const std::vector<sim::Apex> apexes = sim::rebounds(motion);
     const auto apex = std::ranges::find_if(apexes, [&](const sim::Apex& a) { return a.t > liftoff && a.t < next; });
-    const bool rebounds = apex != apexes.end();
+    const bool rebounds = c.t_end && apex != apexes.end();
     span.to = rebounds ? apex->t : c.t_end ? std::min(next, liftoff + std::max(length, touch - span.from)) : liftoff;
 
     span.speed = {.factor = speed_for(touch - span.from + *span.to - liftoff, kApproach)};
@@ -151,22 +183,14 @@ PictureOutput told_impact(PictureOutput film, const Scene& scene, const sim::Res
         span.speed.ease = length;
     }
     if (const std::string text = beginning(scene.problem, span.from); !text.empty()) tell(film, span.from, text);
-    tell(film, touch, touch_of(c), kAtTouch);
-    if (c.t_peak && c.force_peak)
-        tell(film, *c.t_peak,
-             fmt::format("{}, {} after the touch", quantity(*c.force_peak, "N"), quantity(*c.t_peak - touch, "s")),
-             kAtPeak);
-    if (c.t_end && length > 0)
-        tell(film, liftoff,
-             "lifts off after " + quantity(length, "s") + (c.count > 1 ? " and " + counted(c.count, "impact") : ""),
-             kAtLiftoff);
+    tell_collision(film, c, liftoff);
     if (rebounds)
         tell(film, *span.to, energy_at_apex(touch, *span.to, scene.problem, find), kHold);
     else
         span.hold = kHold;
     film.view.keyframes = {
         {.at = at_time(touch), .zoom = kNear, .follow = render::Anchor{render::Anchor::Kind::contact}, .over = kMove},
-        {.at = at_time(*span.to), .zoom = 1, .follow = render::Anchor{}, .over = kMove}};
+        {.at = at_time(liftoff + 0.3 * (*span.to - liftoff)), .zoom = 1, .follow = render::Anchor{}, .over = kMove}};
     if (!film.layout) film.layout = impact_layout(c.force_peak.has_value(), film.size);
     return film;
 }
@@ -174,10 +198,11 @@ PictureOutput told_impact(PictureOutput film, const Scene& scene, const sim::Res
 // ---- "settle" ----------------------------------------------------------------------------------
 
 PictureOutput told_settle(PictureOutput film, const Scene& scene, const sim::Result& motion) {
-    constexpr double kFirst = 4, kMiddle = 5, kLast = 3, kHold = 1;  // durations of the parts in the film [s]
-    constexpr std::size_t kBounces = 3;                              // collisions in the first part
+    constexpr double kFirst = 4, kMiddle = 5, kLast = 3, kHold = 1, kAtTouch = 0.8;  // durations in the film [s]
+    constexpr std::size_t kBounces = 3;                                              // collisions in the first part
     FrameSpan& span = film.span;
     const sim::Collision& first = collision_after(span.from, motion);
+    begin_before(first.t_start, motion, span);
     const sim::Impact& last = motion.impacts.back();
     if (last.t_end)
         throw render::PictureError(
@@ -198,13 +223,13 @@ PictureOutput told_settle(PictureOutput film, const Scene& scene, const sim::Res
     part(span.from, slow_until, kFirst);
     part(slow_until, settled, kMiddle);
     part(settled, *span.to, kLast);
+    for (std::size_t k = 1; k < span.speed.intervals.size(); ++k)  // the film never slows down
+        span.speed.intervals[k].factor = std::max(span.speed.intervals[k].factor, span.speed.intervals[k - 1].factor);
     span.hold = kHold;
     if (const std::string text = beginning(scene.problem, span.from); !text.empty()) tell(film, span.from, text);
-    tell(film, first.t_start, touch_of(first));
-    if (slow_until < settled)
-        tell(film, slow_until,
-             fmt::format("{} in {}", counted(bounces, "impact"), quantity(settled - first.t_start, "s")));
-    tell(film, settled, fmt::format("stays in contact from {:.4g} s on", settled));
+    tell(film, first.t_start, touch_of(first), kAtTouch);
+    tell(film, settled,
+         fmt::format("stays in contact from {:.4g} s on, after {}", settled, counted(bounces, "impact")));
     return film;
 }
 

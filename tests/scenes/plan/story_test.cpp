@@ -1,5 +1,6 @@
 #include "scenes/plan/story.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -76,6 +77,25 @@ TEST(Story, ImpactTellsTheFirstCollisionAfterItsBeginning) {
     EXPECT_NEAR(shown_at(film_of(kFlexible, "impact", R"(, "from": "apex:1")"), "touches"), second, 1e-3);
 }
 
+// It begins before the touch that "from" names, and ends where a contact that lasts has been shown.
+TEST(Story, ImpactTellsTheCollisionThatItsBeginningNames) {
+    const sim::Result motion = motion_of(kFlexible, 1);
+    const ResolvedOutput film = film_of(kFlexible, "impact", R"(, "from": "collision:2")");
+    EXPECT_NEAR(shown_at(film, "touches"), motion.collisions.at(1).t_start, 1e-3);
+    EXPECT_LT(film.times.frames.front(), motion.collisions.at(1).t_start - 0.1);
+}
+
+TEST(Story, ImpactShowsAContactThatLastsForAWhile) {
+    const std::string pressed =
+        R"("beam": {"model": "rigid"}, "cam": {"speed": 0}, "contact": {"restitution": 0.05}, "time": {"end": 3}, )"
+        R"("hub": {"drive": {"type": "torque", "value": -5}}, )";
+    const std::vector<sim::Collision> all = motion_of(pressed, 3).collisions;
+    ASSERT_FALSE(all.back().t_end);
+    const ResolvedOutput film = film_of(pressed, "impact", fmt::format(R"(, "from": "collision:{}")", all.size()));
+    EXPECT_THAT(texts(film), ::testing::Contains("stays in contact"));
+    EXPECT_LT(double(film.times.frames.size()) / 60, 30);
+}
+
 TEST(Story, SettleEndsWithAContactThatLasts) {
     const ResolvedOutput film = film_of(kRigid, "settle");
     const double settled = motion_of(kRigid, 3).impacts.back().t_start;
@@ -101,7 +121,8 @@ std::string reason(const std::string& mechanics, const std::string& story) {
 
 TEST(Story, SaysWhereThereIsNone) {
     EXPECT_THAT(reason(R"("time": {"end": 0.2}, )", "impact"), HasSubstr("needs a collision, but the motion has none"));
-    EXPECT_THAT(reason(R"("cam": null, "time": {"end": 0.5}, )", "impact"), HasSubstr("has none"));
+    EXPECT_THAT(read(R"({"cam": null, "outputs": [{"type": "video", "file": "a.mp4", "story": "impact"}]})").report(),
+                HasSubstr("the scene has no cam"));
     EXPECT_THAT(reason(kFlexible, "settle"), HasSubstr("needs a contact that lasts"));
 }
 
