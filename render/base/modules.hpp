@@ -1,5 +1,5 @@
-// Loads the program's modules, beamcam_video.so (FFmpeg) and those of OpenGL (gl/renderer.hpp), on first use: linking their
-// libraries would add tens of milliseconds to every start.
+// Loads the program's modules, beamcam_video.so (FFmpeg) and those of OpenGL (gl/renderer.hpp), on first use: linking
+// their libraries would add tens of milliseconds to every start.
 //
 // A module exports one function, `beamcam_module`, which returns one C++ interface. Program and module must be built
 // from the same headers by the same compiler; a digest of both is compared first. Modules are searched in the build

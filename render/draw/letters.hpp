@@ -59,7 +59,7 @@ struct LetterFace {
     double size = 16;
     Weight weight = Weight::regular;
     bool italic = false;
-    double max_width = 0;                      // > 0: truncated with an ellipsis
+    double max_width = 0;  // > 0: truncated with an ellipsis
     std::string key(std::string_view text) const;
 };
 LetterFace face_of(const SetRun& run, const TextStyle& style, Typefaces typefaces);

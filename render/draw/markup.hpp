@@ -23,10 +23,10 @@ struct Run {
     std::string text;
     bool symbol = false;  // italic
     bool bold = false;
-    int script = 0;                            // −1 below, +1 above
-    int dots = 0;                              // above the run
-    std::optional<std::uint32_t> color = {};   // 0xrrggbb; none: that of the text
-    std::vector<Run> over = {}, under = {};    // replace the text: a fraction; without `under` a root
+    int script = 0;                           // −1 below, +1 above
+    int dots = 0;                             // above the run
+    std::optional<std::uint32_t> color = {};  // 0xrrggbb; none: that of the text
+    std::vector<Run> over = {}, under = {};   // replace the text: a fraction; without `under` a root
     bool operator==(const Run&) const = default;
 };
 

@@ -2,8 +2,8 @@
 // pixels. Memory does not grow with the number of frames drawn; data that a thread keeps between frames only save time.
 //
 // A frame is a grid of panels (panel.hpp) that share one instant, on a background that never changes. The mechanism is
-// drawn as solid bodies with OpenGL (gl/bodies.hpp) or flat with Cairo; titles, charts and labels are always drawn with Cairo.
-// Drawing neither simulates nor changes the simulated motion.
+// drawn as solid bodies with OpenGL (gl/bodies.hpp) or flat with Cairo; titles, charts and labels are always drawn with
+// Cairo. Drawing neither simulates nor changes the simulated motion.
 #pragma once
 
 #include <algorithm>

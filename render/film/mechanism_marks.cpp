@@ -3,16 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "render/plot/ticks.hpp"
 
 namespace beamcam::render {
-namespace {
-
-using std::numbers::pi;
-
-}  // namespace
 
 // The base line has its name where it is above a beam that bends visibly, in stills and in slow motion, which give time
 // to read it.

@@ -183,9 +183,10 @@ BodyMesh Bodies::mesh() const {
     const bool beam_nearer =
         !shape_.touch || seen_from({shape_.touch->normal.x, -shape_.touch->normal.y}, up(shape_.touch->at));
     const bool beam_side = seen_from(along_, hinge_ + along_ * shape_.hub);
-    if (shape_.disc && seen_from(hinge_ - axis_, (hinge_ + axis_) * 0.5)) add_bracket(mesh, axis_, bearing_);
+    const bool hub_nearer = seen_from(hinge_ - axis_, (hinge_ + axis_) * 0.5);
+    if (shape_.disc && hub_nearer) add_bracket(mesh, axis_, bearing_);
     add_bracket(mesh, hinge_, 0.8 * shape_.hub);
-    if (shape_.disc && !seen_from(hinge_ - axis_, (hinge_ + axis_) * 0.5)) add_bracket(mesh, axis_, bearing_);
+    if (shape_.disc && !hub_nearer) add_bracket(mesh, axis_, bearing_);
     if (beam_side) add_hub(mesh);
     if (shape_.disc && beam_nearer) add_cam(mesh);
     add_beam(mesh, beam_side);

@@ -88,7 +88,6 @@ constexpr Phrase kPhrases[] = {
     {"impact {} of {}", "冲击 {}/{}"},
     {"impact {}", "冲击 {}"},
     {"penetration", "压入"},
-    {"friction", "摩擦"},
     {"potential", "势能"},
     {"kinetic", "动能"},
     {"bending", "弯曲能"},

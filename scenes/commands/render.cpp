@@ -8,6 +8,7 @@
 #include "output/json/tree.hpp"
 #include "scenes/commands/key_options.hpp"
 #include "scenes/format/keys.hpp"
+#include "scenes/outputs/picture_keys.hpp"
 #include "scenes/outputs/run.hpp"
 #include "scenes/plan/plan.hpp"
 #include "scenes/scene/files.hpp"
@@ -82,8 +83,10 @@ Output with_options(const RenderArguments& args, const Output& base, const Scene
     add(node, "file", std::filesystem::path(args.file).filename().string());
     if (args.film.value("--speed")) remove(node, "duration");
     if (args.film.value("--duration")) remove(node, "speed");
-    if (args.film.value("--story"))
-        for (const char* key : {"to", "speed", "duration", "hold", "events", "layout"}) remove(node, key);
+    if (args.film.value("--story")) {
+        for (const char* key : kKeysOfStories) remove(node, key);
+        remove(node, "layout");  // that of a film which shows everything
+    }
     KeyOptions film = args.film;
     if (const std::string* theme = film.value("--theme");
         theme && *theme == "print" && std::holds_alternative<FigureOutput>(base))

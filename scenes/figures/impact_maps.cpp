@@ -57,11 +57,11 @@ std::vector<Panel> impact_maps(const Subject& subject, const sim::Result& result
         next.series[0].add(std::abs(all[k].v_n_before), std::abs(all[k + 1].v_n_before));
     // Above 1 the vibration gives energy back; on the diagonal a collision is as fast as the one before it.
     loss.rules = {{.at = 1}, {.at = problem.contact.restitution, .label = "$c$_{r}"}};
-    double fastest = 0;
-    for (const double each : next.series[0].x) fastest = std::max(fastest, each);
-    if (fastest > 0)
+    if (!next.series[0].x.empty()) {
+        const double fastest = std::ranges::max(next.series[0].x);
         next.series.push_back(
             {.x = {0, fastest}, .y = {0, fastest}, .solid = true, .weight = 0.5, .color = render::rgb(0x777777)});
+    }
     phase.x.to = hub.x.to = 1;
     hub.y.from.reset();
     spread_ratios(loss);

@@ -122,7 +122,7 @@ class SeriesPanelMaker {
         side.measure = !unit_of(side).name.empty() ? measure_in(unit_of(side))
                        : plan_.has_sums()          ? Measure{1, si}
                                                    : measure_of(si, most, plan_.units);
-        if (plan_.has_sums() && has_sums() && si == "J") return void(side.symbols = {"$E$"});
+        if (has_sums() && si == "J") return void(side.symbols = {"$E$"});
         for (const Channel& channel : side.channels)
             side.symbols.push_back(
                 fmt::format(fmt::runtime(plan_.abscissa.is_frequency() || is_closure() ? "|{}|" : "{}"),

@@ -105,9 +105,9 @@ void add_instant(const sim::Pose& pose, std::string instant, bool if_room, Sketc
 // end.
 class InstantText {
   public:
-    explicit InstantText(const std::vector<sim::Pose>& poses) : single_(poses.size() == 1) {
-        const double step = poses.size() > 1 ? poses[1].t - poses[0].t : 0;
-        const int few = step > 0 ? render::decimals_of(step) : 1;
+    explicit InstantText(const std::vector<sim::Pose>& poses) {
+        const double step = poses[1].t - poses[0].t;
+        const int few = render::decimals_of(step);
         const auto is_exact = [&](const sim::Pose& pose) {
             return std::abs(pose.t - std::round(pose.t * render::ten_to(decimals_)) / render::ten_to(decimals_)) <
                    1e-6 * step;
@@ -116,7 +116,6 @@ class InstantText {
         if (!std::ranges::all_of(poses, is_exact)) decimals_ = few + 2;
     }
     std::string operator()(const sim::Pose& pose) const {
-        if (single_) return number(pose.t, kDigits) + " s";
         std::string text = render::fixed(pose.t, decimals_);
         if (decimals_ > 0) text.erase(text.find_last_not_of('0') + 1);
         if (text.ends_with('.')) text.pop_back();
@@ -124,18 +123,18 @@ class InstantText {
     }
 
   private:
-    bool single_;
     int decimals_ = 0;
 };
 
 // First and last, in one label where two would overlap; the others if all of them have room.
 void label_instants(const std::vector<sim::Pose>& poses, Sketch& to) {
+    if (poses.size() == 1) return add_instant(poses.front(), number(poses.front().t, kDigits) + " s", false, to);
     const InstantText text_of(poses);
     const sim::Pose &first = poses.front(), &last = poses.back();
     constexpr double kHeight = 0.05, kWidth = 0.15;  // about those of a label; level beams have labels below each other
     const double room = is_level(sim::unit(first.theta)) ? kHeight : kWidth;
     const bool joined = std::abs(std::remainder(last.theta - first.theta, 2 * std::numbers::pi)) <= room;
-    add_instant(first, joined && poses.size() > 1 ? text_of(first) + ", " + text_of(last) : text_of(first), false, to);
+    add_instant(first, joined ? text_of(first) + ", " + text_of(last) : text_of(first), false, to);
     if (!joined) add_instant(last, text_of(last), false, to);
     for (std::size_t k = 1; k + 1 < poses.size(); ++k) add_instant(poses[k], text_of(poses[k]), true, to);
 }

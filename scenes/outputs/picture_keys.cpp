@@ -185,12 +185,14 @@ void visit_span(SceneVisitor& v, FrameSpan& span) {
     v.exclusive("speed", "duration");
     v.number(written_if(span.hold > 0, "hold"), span.hold, dim::kTime, kNotNegative,
              "The last picture freezes for this time, in film time.");
-    v.list(written_if(!span.story, "events"), SceneVisitor::items_of(span.events), "Freezes and texts of the film at instants.");
-    v.choice("story", span.story,
-             "impact: the film tells the first collision after \"from\", from the fall to the rebound, with slow motion, "
-             "freezes, texts, a camera that moves closer, and a layout; settle: it tells how the motion comes to a "
-             "contact that lasts, faster and faster.");
-    for (const char* key : {"to", "speed", "duration", "hold", "events"}) v.exclusive("story", key);
+    v.list(written_if(!span.story, "events"), SceneVisitor::items_of(span.events),
+           "Freezes and texts of the film at instants.");
+    v.choice(
+        "story", span.story,
+        "impact: the film tells the first collision from \"from\" on, from the fall to the rebound, with slow motion, "
+        "freezes, texts, a camera that moves closer, and a layout; settle: it tells how the motion comes to a "
+        "contact that lasts, faster and faster.");
+    for (const char* key : kKeysOfStories) v.exclusive("story", key);
 }
 
 }  // namespace beamcam::scenes

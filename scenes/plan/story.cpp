@@ -45,26 +45,26 @@ LayoutNode group(LayoutNode::Kind kind, std::vector<LayoutNode> parts, double sh
     return {.kind = kind, .share = share, .children = std::move(parts)};
 }
 
-// A sentence about the start, where it is true for certain; else empty.
-std::string beginning(const sim::Problem& problem, double from) {
+// Appends a caption about the start, where it is true for certain.
+void tell_beginning(PictureOutput& film, const sim::Problem& problem) {
     const bool free = std::holds_alternative<sim::FreeDrive>(problem.hub.drive) && !problem.hub.spring;
     const bool falls = free && problem.gravity > 0 && problem.initial.angular_velocity == 0;
-    return falls && from == 0 ? "falls under gravity" : "";
+    if (falls && film.span.from == 0) tell(film, 0, "falls under gravity");
 }
 
 std::string touch_of(const sim::Collision& c) {
     return fmt::format("touches {} from the hub, at {}", quantity(c.x, "m"), quantity(std::abs(c.v_n_before), "m/s"));
 }
 
-// The first collision that begins at `from` or later, but not with the motion itself.
-const sim::Collision& collision_after(double from, const sim::Result& motion) {
+// The index of the first collision that begins at `from` or later, but not with the motion itself.
+std::size_t collision_after(double from, const sim::Result& motion) {
     const auto found =
         std::ranges::find_if(motion.collisions, [&](const auto& c) { return c.t_start > 0 && c.t_start >= from; });
     if (found == motion.collisions.end())
         throw render::PictureError(fmt::format(
             "the story needs a collision, but the motion has none that begins between {:g} s and {:g} s{}", from,
             motion.end_time, motion.collisions.empty() ? "" : "; another \"from\" or a larger time.end may have one"));
-    return *found;
+    return static_cast<std::size_t>(found - motion.collisions.begin());
 }
 
 // A film that begins with a touch begins at the apex before it instead, or with the motion.
@@ -163,13 +163,15 @@ PictureOutput told_impact(PictureOutput film, const Scene& scene, const sim::Res
     constexpr double kApproach = 2.5, kCollision = 3, kHold = 2.5;  // durations in the film [s]
     constexpr double kNear = 2, kMove = 1.2;                        // zoom; duration of the camera's movement [s]
     FrameSpan& span = film.span;
-    const sim::Collision& c = collision_after(span.from, motion);
+    const std::size_t number = collision_after(span.from, motion);
+    const sim::Collision& c = motion.collisions[number];
     const double touch = c.t_start;
     begin_before(touch, motion, span);
     // Of a contact that lasts, the film shows as much as of the time before it.
     const double liftoff = c.t_end.value_or(std::min(motion.end_time, touch + (touch - span.from))),
                  length = liftoff - touch;
-    const double next = (&c == &motion.collisions.back()) ? motion.end_time : (&c + 1)->t_start;
+    const bool is_last = number + 1 == motion.collisions.size();
+    const double next = is_last ? motion.end_time : motion.collisions[number + 1].t_start;
     const std::vector<sim::Apex> apexes = sim::rebounds(motion);
     const auto apex = std::ranges::find_if(apexes, [&](const sim::Apex& a) { return a.t > liftoff && a.t < next; });
     const bool rebounds = c.t_end && apex != apexes.end();
@@ -182,7 +184,7 @@ PictureOutput told_impact(PictureOutput film, const Scene& scene, const sim::Res
                                  at_time(std::min(*span.to, liftoff + 0.05 * length)), slow}};
         span.speed.ease = length;
     }
-    if (const std::string text = beginning(scene.problem, span.from); !text.empty()) tell(film, span.from, text);
+    tell_beginning(film, scene.problem);
     tell_collision(film, c, liftoff);
     if (rebounds)
         tell(film, *span.to, energy_at_apex(touch, *span.to, scene.problem, find), kHold);
@@ -201,7 +203,8 @@ PictureOutput told_settle(PictureOutput film, const Scene& scene, const sim::Res
     constexpr double kFirst = 4, kMiddle = 5, kLast = 3, kHold = 1, kAtTouch = 0.8;  // durations in the film [s]
     constexpr std::size_t kBounces = 3;                                              // collisions in the first part
     FrameSpan& span = film.span;
-    const sim::Collision& first = collision_after(span.from, motion);
+    const std::size_t number = collision_after(span.from, motion), later = number + kBounces;
+    const sim::Collision& first = motion.collisions[number];
     begin_before(first.t_start, motion, span);
     const sim::Impact& last = motion.impacts.back();
     if (last.t_end)
@@ -212,9 +215,7 @@ PictureOutput told_settle(PictureOutput film, const Scene& scene, const sim::Res
     const double settled = last.t_start;
     const auto bounces = std::ranges::count_if(
         motion.impacts, [&](const sim::Impact& i) { return i.t_start >= first.t_start && i.t_start < settled; });
-    const std::size_t before = static_cast<std::size_t>(&first - motion.collisions.data());
-    const double slow_until =
-        before + kBounces < motion.collisions.size() ? motion.collisions[before + kBounces].t_start : settled;
+    const double slow_until = later < motion.collisions.size() ? motion.collisions[later].t_start : settled;
     const double speed = scene.problem.cam ? std::abs(scene.problem.cam->speed) : 0;
     span.to = std::min(motion.end_time, settled + (speed > 0 ? 2 * std::numbers::pi / speed : settled - span.from));
     const auto part = [&](double from, double to, double seconds) {
@@ -226,7 +227,7 @@ PictureOutput told_settle(PictureOutput film, const Scene& scene, const sim::Res
     for (std::size_t k = 1; k < span.speed.intervals.size(); ++k)  // the film never slows down
         span.speed.intervals[k].factor = std::max(span.speed.intervals[k].factor, span.speed.intervals[k - 1].factor);
     span.hold = kHold;
-    if (const std::string text = beginning(scene.problem, span.from); !text.empty()) tell(film, span.from, text);
+    tell_beginning(film, scene.problem);
     tell(film, first.t_start, touch_of(first), kAtTouch);
     tell(film, settled,
          fmt::format("stays in contact from {:.4g} s on, after {}", settled, counted(bounces, "impact")));

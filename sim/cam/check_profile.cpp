@@ -356,8 +356,7 @@ std::vector<Issue> check_points(const PointsProfile& profile, const std::string&
     if (!(std::fabs(turn - kFullTurn) < 1))
         return wrong(
             "the outline does not go once around the axis at (0, 0); state the points in the cam's frame, in order, "
-            "and "
-            "the unit of angles");
+            "and the unit of angles");
     for (std::size_t i = 0; i < n; ++i) {
         const Vec2 &before = points[(i + n - 1) % n], &p = points[i], &next = points[(i + 1) % n];
         if (!(cross(p - before, next - p) > 0)) return hollow(i);

@@ -12,7 +12,7 @@ enum class AttractorClass {
     following,     // the beam never leaves the cam
     periodic,      // (n, m): n turns of the cam, m impacts
     chaotic,       // the largest exponent exceeds three times its error
-    aperiodic,     // no period, or one that depends on rounding, and an unknown or doubtful exponent
+    aperiodic,     // no period, or one that depends on rounding, and an exponent that is zero, unknown or doubtful
     over_the_top,  // the beam leaves the half plane of the cam
     unsettled      // the transient is not over, or the integration failed
 };

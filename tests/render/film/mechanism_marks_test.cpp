@@ -63,11 +63,10 @@ FilmSetup visible_film_of(Style style) {
 
 // A film shows the word in slow motion only, and where the line is above a bent beam.
 TEST(MechanismMarks, TheBaseLineIsNamedWhereThereIsTimeToReadIt) {
-    const auto words = [](std::vector<double> speeds, double bend) {
+    const auto words = [](double speed, double bend) {
         FilmSetup setup = visible_film_of(Style::flat);
         setup.view.exaggeration = 20;
-        setup.speeds.assign(setup.frames(), 1);
-        if (!speeds.empty()) setup.speeds.assign(setup.frames(), speeds.front());
+        setup.speeds.assign(setup.frames(), speed);
         for (sim::Pose& pose : setup.poses) {
             const double length = norm(pose.centreline.back());
             const Vec2 along = sim::unit(pose.theta), across{-along.y, along.x};
@@ -80,10 +79,10 @@ TEST(MechanismMarks, TheBaseLineIsNamedWhereThereIsTimeToReadIt) {
         marks.drawn([](const MechanismScene& s) { draw_base_line(s); });
         return marks.texts.size();
     };
-    EXPECT_EQ(words({0.01}, -0.01), 1U);
-    EXPECT_EQ(words({1}, -0.01), 0U);
-    EXPECT_EQ(words({0.01}, 0.01), 0U);
-    EXPECT_EQ(words({0.01}, 0), 0U);
+    EXPECT_EQ(words(0.01, -0.01), 1U);
+    EXPECT_EQ(words(1, -0.01), 0U);
+    EXPECT_EQ(words(0.01, 0.01), 0U);
+    EXPECT_EQ(words(0.01, 0), 0U);
 }
 
 }  // namespace
