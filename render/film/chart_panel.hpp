@@ -10,14 +10,14 @@
 namespace beamcam::render {
 
 inline figure::PlotStyle chart_style(const FilmContext& context) {
-    return figure::film_style(*context.palette, context.unit, context.tick);
+    return figure::film_style(*context.palette, context.unit, context.letters.heading, context.letters.words);
 }
 
 class ChartPanel : public FilmPanel {
   public:
     ChartPanel(const FilmContext& context, ChartContent content, const Box& box)
         : context_(context),
-          chart_(std::move(content), box, plot_area(box, context.unit, context.tick), chart_style(context),
+          chart_(std::move(content), box, plot_area(box, context.unit, context.letters.words), chart_style(context),
                  *context.fonts) {}
     void draw_background(Canvas& canvas) const override { chart_.draw_background(canvas); }
     void draw(Canvas& canvas, int frame, Style, State*) const override {

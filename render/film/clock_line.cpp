@@ -7,12 +7,9 @@
 namespace beamcam::render {
 namespace {
 
-struct Sizes {
-    double clock, letters;
-};
-constexpr Sizes kUsualSizes{46, 20}, kSmallSizes{28, 17};  // [design px]
-constexpr double kAfterClock = 36, kBetweenPills = 14;     // [design px]
-constexpr double kPadding = 1.7;                           // of a pill, in sizes of its letters
+constexpr double kSmaller = 0.7;                        // size of letters for which there is no room otherwise
+constexpr double kAfterClock = 36, kBetweenPills = 14;  // [design px]
+constexpr double kPadding = 1.7;                        // of a pill, in sizes of its letters
 
 std::string peak_text(const FilmContext& context, const std::string& force) {
     return context.translate("peak") + "\u00A0$F$\u2009=\u2009" + force;
@@ -21,7 +18,7 @@ std::string peak_text(const FilmContext& context, const std::string& force) {
 }  // namespace
 
 double recent_peak(const FilmContext& context, int member, int frame) {
-    constexpr double kHeld = 1;  // [s of the film], freezes not counted
+    constexpr double kHeld = 1;  // [s of the film], freezes not counted; in a still, of the motion
     const std::vector<sim::Impact>& impacts = context.motion(member).impacts;
     const std::vector<TraceSample>& samples = context.samples[static_cast<std::size_t>(member)];
     const double t = context.at(frame);
@@ -43,6 +40,7 @@ double recent_peak(const FilmContext& context, int member, int frame) {
         if (const sim::Pose pose = context.pose(member, frame); pose.nearest)
             peak = std::max(peak, pose.nearest->force);
     }
+    if (context.frames() == 1) return t - end < kHeld ? peak : 0;
     if (end < context.times.front()) return 0;
     const auto ended = static_cast<std::size_t>(std::ranges::lower_bound(context.times, end) - context.times.begin());
     const int since = context.moved[static_cast<std::size_t>(frame)] - context.moved[ended];
@@ -67,11 +65,11 @@ ClockLine::ClockLine(const FilmContext& context) : context_(context) {
     steady_ = steady_speed(setup.speeds);
     Image scratch(1, 1);
     const Canvas canvas(scratch, *context.fonts);
-    const auto fits = [&](const Sizes& sizes) {
-        size_ = sizes.clock * context.unit, letters_ = std::max(sizes.letters * context.unit, kReadable);
+    const auto fits = [&](double size) {
+        size_ = size * context.letters.title, letters_ = std::max(size * context.letters.words, kReadable);
         return measure(canvas) <= context.places.clock->right();
     };
-    if (fits(kUsualSizes) || fits(kSmallSizes)) return;
+    if (fits(1) || fits(kSmaller)) return;
     while (!pills_.empty() && measure(canvas) > context.places.clock->right()) {
         if (pills_.back().kind != Pill::Kind::peak) has_room_ = false;
         pills_.pop_back();
@@ -128,8 +126,8 @@ void ClockLine::draw(Canvas& canvas, int frame) const {
     const Box& b = *context_.places.clock;
     const double u = context_.unit, last = context_.at(context_.frames() - 1);
     if (context_.setup->view.show.clock && clock_width_ <= b.w)
-        canvas.text({b.x, b.y + 24 * u + 16 / kUsualSizes.clock * size_},
-                    clock_text(context_.time, context_.at(frame), last), clock_style());
+        canvas.text({b.x, b.y + 24 * u + 0.35 * size_}, clock_text(context_.time, context_.at(frame), last),
+                    clock_style());
     double x = first_;
     for (const Pill& pill : pills_) {
         const std::string text = words(pill, frame);

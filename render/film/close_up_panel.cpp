@@ -22,7 +22,7 @@ class CloseUpPanel final : public FilmPanel {
     CloseUpPanel(const FilmContext& context, const PanelSlot& slot)
         : context_(context), member_(std::min(slot.spec.member, context.members() - 1)), box_(slot.box) {
         const double u = context.unit;
-        const double left = 70 * u + 2.4 * (context.tick - 17 * u);  // as in plot_area
+        const double left = 70 * u + 2.4 * (context.letters.words - 17 * u);  // as in plot_area
         plot_ = {std::round(box_.x + left), std::round(box_.y + 46 * u), std::round(box_.w - left - 8 * u),
                  std::round(box_.h - 46 * u - 40 * u)};
         for (const sim::Impact& i : motion().impacts) depth_ = std::max(depth_, i.penetration_peak);
@@ -41,8 +41,8 @@ class CloseUpPanel final : public FilmPanel {
     void draw_background(Canvas& canvas) const override {
         const double u = context_.unit;
         const Palette& p = *context_.palette;
-        const TextStyle bold{.size = context_.heading(), .weight = Weight::semibold},
-            plain{.size = context_.heading(), .weight = Weight::medium};
+        const TextStyle bold{.size = context_.letters.heading, .weight = Weight::semibold},
+            plain{.size = context_.letters.heading, .weight = Weight::medium};
         const double room =
             plot_.w - canvas.measure(context_.translate("penetration") + " 000\u00A0µm", plain).w - 16 * u;
         const std::string whose = motion_suffix(context_, member_);
@@ -90,15 +90,15 @@ class CloseUpPanel final : public FilmPanel {
         for (double v : marks.values) {
             const double y = std::round(at(0, v * unit_.factor).y) + 0.5;
             canvas.line({plot_.x - 6 * u, y}, {plot_.x, y}, {p.muted, std::max(1.0, u), {}, Cap::butt});
-            canvas.text({plot_.x - 12 * u, y + 6.0 / 17 * context_.tick}, fixed(v, marks.decimals),
-                        {.size = context_.tick, .color = p.muted, .align = HAlign::right});
+            canvas.text({plot_.x - 12 * u, y + 6.0 / 17 * context_.letters.words}, fixed(v, marks.decimals),
+                        {.size = context_.letters.words, .color = p.muted, .align = HAlign::right});
         }
     }
 
     // The scale bar of widths, and beside it how heights are enlarged.
     void draw_scales(Canvas& canvas) const {
         const double u = context_.unit;
-        const TextStyle note{.size = 16.0 / 17 * context_.tick, .color = context_.palette->muted};
+        const TextStyle note{.size = context_.letters.words, .color = context_.palette->muted};
         TextStyle at_right = note;
         at_right.align = HAlign::right;
         const double bar = round_down_125(0.5 * half_width_), w = bar / (2 * half_width_) * plot_.w;
@@ -106,13 +106,13 @@ class CloseUpPanel final : public FilmPanel {
         canvas.polyline(std::array<Vec2, 4>{{{x1 - w, y - 4 * u}, {x1 - w, y}, {x1, y}, {x1, y - 4 * u}}});
         canvas.stroke({note.color, 1.6 * u, {}, Cap::butt});
         const std::string length = quantity(bar, "m");
-        canvas.text({x1, y + 3 * u + context_.tick}, length, at_right);
+        canvas.text({x1, y + 3 * u + context_.letters.words}, length, at_right);
         const double left = plot_.w - std::max(w, canvas.measure(length, note).w) - 20 * u;
         const double stretch = (plot_.h / (shown_.high - shown_.low)) / (plot_.w / (2 * half_width_));
         const std::string whole = context_.translate(
                               fmt::format("heights in {}m, ×{:.2g} against widths", unit_.symbol, stretch)),
                           brief = context_.translate(fmt::format("heights in {}m", unit_.symbol));
-        canvas.text({plot_.x, y - 3 * u + context_.tick},
+        canvas.text({plot_.x, y - 3 * u + context_.letters.words},
                     first_that_fits(canvas, {whole, brief, fmt::format("{}m", unit_.symbol), ""}, note, left), note);
     }
 
@@ -175,7 +175,7 @@ class CloseUpPanel final : public FilmPanel {
             const double x = plot_.x + 20 * u;
             canvas.arrow({x, plot_.y + 40 * u}, {x, plot_.y + 10 * u}, {p.motion, 2.4 * u}, {14 * u});
             canvas.text({x + 14 * u, plot_.y + 31 * u}, context_.translate("beam"),
-                        {.size = context_.tick, .color = p.motion, .weight = Weight::medium});
+                        {.size = context_.letters.words, .color = p.motion, .weight = Weight::medium});
             return;
         }
         const std::vector<Vec2> heights = face(pose);
@@ -197,13 +197,14 @@ class CloseUpPanel final : public FilmPanel {
         }
         canvas.polyline(edge);
         canvas.stroke({p.motion, 2.4 * u});
-        const TextStyle name{.size = context_.tick, .color = p.motion, .weight = Weight::medium};
+        const TextStyle name{.size = context_.letters.words, .color = p.motion, .weight = Weight::medium};
         const double top = std::max(edge.front().y, plot_.y + 30 * u);
         if (top - plot_.y > 24 * u)
             canvas.text({plot_.x + 12 * u, std::min(plot_.y + 24 * u, top - 6 * u)}, context_.translate("beam"), name);
         if (at(0, std::min(0.0, pose.nearest->gap)).y < plot_.bottom() - 32 * u)  // below the overlap
-            canvas.text({plot_.x + plot_.w / 2 - 14 * u, plot_.bottom() - 12 * u}, context_.translate("cam"),
-                        {.size = context_.tick, .color = mix(p.steel_edge, p.steel, 0.25), .weight = Weight::medium});
+            canvas.text(
+                {plot_.x + plot_.w / 2 - 14 * u, plot_.bottom() - 12 * u}, context_.translate("cam"),
+                {.size = context_.letters.words, .color = mix(p.steel_edge, p.steel, 0.25), .weight = Weight::medium});
         forces(canvas, *pose.nearest);
     }
 

@@ -41,6 +41,16 @@ std::string collision_counter(const Motion& motion, double t) {
     return over <= motion.end ? fmt::format("{} of {}", counted, of) : counted;
 }
 
+// " · slides" while stick–slip friction is at its limit μF, else " · sticks"; empty without contact or another
+// friction.
+std::string friction_word(const sim::Problem& problem, const sim::Nearest& contact) {
+    constexpr double kRounding = 1e-6;
+    const auto* law = std::get_if<sim::StickSlipFriction>(&problem.contact.friction);
+    if (!law || !(contact.force > 0)) return {};
+    const double limit = law->coefficient * contact.force;
+    return std::abs(std::abs(contact.friction) - limit) <= kRounding * limit ? " · slides" : " · sticks";
+}
+
 }  // namespace
 
 void CloseUpReadings::draw(Canvas& canvas, const sim::Pose& pose, double face) const {
@@ -55,19 +65,20 @@ void CloseUpReadings::draw(Canvas& canvas, const sim::Pose& pose, double face) c
                                              : fmt::format("{}\u00A0mm", fixed(size * 1e3, size < 0.1 ? 1 : 0));
     draw_reading(canvas, {plot.right(), box.y + 26 * u}, context.translate(deep ? "penetration" : "gap"), amount,
                  "00.0\u00A0mm",
-                 {.size = context.heading(), .color = deep ? p.contact : p.motion, .weight = Weight::medium});
+                 {.size = context.letters.heading, .color = deep ? p.contact : p.motion, .weight = Weight::medium});
     draw_count(canvas, pose, face);
 }
 
 void CloseUpReadings::draw_count(Canvas& canvas, const sim::Pose& pose, double face) const {
     const Palette& p = *context.palette;
     const double u = context.unit;
-    const std::string count = context.translate(collision_counter(motion, pose.t));
-    const TextStyle style{.size = context.tick, .color = p.ink, .align = HAlign::right};
-    const double room = plot.w - canvas.measure(context.translate("beam"), {.size = context.tick}).w - 40 * u,
+    const std::string count =
+        context.translate(collision_counter(motion, pose.t) + friction_word(motion.problem, *pose.nearest));
+    const TextStyle style{.size = context.letters.words, .color = p.ink, .align = HAlign::right};
+    const double room = plot.w - canvas.measure(context.translate("beam"), {.size = context.letters.words}).w - 40 * u,
                  wide = canvas.measure(count, style).w;
     if (count.empty() || wide > room) return;
-    const double line = plot.y + 2 * u + 1.1 * context.tick, bottom = line + 0.4 * context.tick,
+    const double line = plot.y + 2 * u + 1.1 * context.letters.words, bottom = line + 0.4 * context.letters.words,
                  right = plot.right() - 10 * u, left = right - wide - 8 * u;
     const Color background = close_up_background(p);
     canvas.rectangle({left, plot.y + 3 * u, plot.right() - 3 * u - left, bottom - plot.y - 3 * u});

@@ -19,14 +19,13 @@ void draw_color_bars(Canvas& canvas, const FilmContext& context) {
     const double u = context.unit;
     const Palette& palette = *context.palette;
     const Box& b = *context.places.scales;
-    const TextStyle small{
-        .size = 16 * u + 0.4 * (context.tick - 17 * u), .color = palette.muted, .align = HAlign::centre};
+    const TextStyle small{.size = context.letters.words, .color = palette.muted, .align = HAlign::centre};
     const std::string moment_title = context.translate("bending moment (√ scale)"),
                       trace_title = context.translate("contact force, trace (√ scale)");
     const double wide = std::round(std::max({250 * u, canvas.measure(moment_title, small).w,
                                              context.force_scale > 0 ? canvas.measure(trace_title, small).w : 0}));
     const auto bar = [&](double right, const std::string& title, const auto& color, std::array<std::string, 3> marks) {
-        const Box strip{std::round(right - wide), std::round(b.y + 22 * u), wide, std::round(10 * u)};
+        const Box strip{std::round(right - wide), std::round(b.y + 24 * u), wide, std::round(10 * u)};
         for (int i = 0; i < static_cast<int>(strip.w); ++i) {
             canvas.rectangle({strip.x + i, strip.y, 1, strip.h});
             canvas.fill(color((i + 0.5) / strip.w));
@@ -35,8 +34,8 @@ void draw_color_bars(Canvas& canvas, const FilmContext& context) {
         for (std::size_t i = 0; i < 3; ++i) {
             TextStyle style = small;
             style.align = i == 0 ? HAlign::left : i == 1 ? HAlign::centre : HAlign::right;
-            canvas.text({strip.x + 0.5 * double(i) * strip.w, strip.bottom() + 19 * u + 0.3 * (context.tick - 17 * u)},
-                        marks[i], style);
+            canvas.text({strip.x + 0.5 * double(i) * strip.w, strip.bottom() + 0.9 * context.letters.words}, marks[i],
+                        style);
         }
     };
     double right = b.right();

@@ -82,48 +82,35 @@ class EnergyPanel final : public ChartPanel {
 
     static bool is_wide(const FilmContext& context, const Box& box) { return box.w > 600 * context.unit; }
 
-    // The legend beside the heading, closer and smaller if there is little space.
+    // The legend beside the heading, in symbols if there is no room for words.
     void legend(Canvas& canvas) const {
         const double u = context_.unit;
-        const Box plot = plot_area(box_, u, context_.tick);
+        const Box plot = plot_area(box_, u, context_.letters.words);
         std::vector<Part> shown = parts(context_);
         std::erase_if(shown, [&](const Part& part) { return !occurs(part); });
         const double first =
             plot.x +
             canvas
                 .measure((is_wide(context_, box_) ? context_.translate("Energy") + " E / mJ" : "E / mJ"),
-                         {.size = context_.heading(), .weight = Weight::semibold})
+                         {.size = context_.letters.heading, .weight = Weight::semibold})
                 .w +
             20 * u;
-        struct Step {
-            double size, swatch, gap;
-            bool in_symbols = false;
-        } chosen{};
-        const auto words = [&](const Part& part) { return chosen.in_symbols ? part.symbol : std::string(part.label); };
-        const double full = 16.0 / 17 * context_.tick / u;
-        for (const Step step : {Step{full, full + 3, 16},
-                                {full, full + 2, 9},
-                                {16, 19, 16},
-                                {16, 18, 9},
-                                {14, 15, 8},
-                                {16, 19, 12, true},
-                                {16, 17, 6, true}}) {
-            chosen = step;
-            double end = first - step.gap * u;
-            for (const Part& part : shown)
-                end += (step.gap + step.swatch) * u + canvas.measure(words(part), {.size = step.size * u}).w;
-            if (end <= box_.right()) break;
-        }
-        const TextStyle style{.size = chosen.size * u, .color = context_.palette->muted};
-        const double side = 0.8 * chosen.size * u;
+        const TextStyle style{.size = context_.letters.words, .color = context_.palette->muted};
+        const double side = 0.8 * style.size, beside = 1.15 * style.size, gap = 0.7 * style.size;
+        const auto width = [&](const Part& part, bool in_symbols) {
+            return beside + canvas.measure(in_symbols ? part.symbol : std::string(part.label), style).w + gap;
+        };
+        double end = first;
+        for (const Part& part : shown) end += width(part, false);
+        const bool in_symbols = end - gap > box_.right();
         double x = first;
         for (const Part& part : shown) {
-            const double w = canvas.measure(words(part), style).w;
-            if (x + w + chosen.swatch * u > box_.right() + 1) break;
+            const double w = width(part, in_symbols);
+            if (x + w - gap > box_.right() + 1) break;
             canvas.rounded({x, box_.y + 26.5 * u - side, side, side}, 3 * u);
             canvas.fill(part.color);
-            canvas.text({x + chosen.swatch * u, box_.y + 26 * u}, words(part), style);
-            x += w + (chosen.swatch + chosen.gap) * u;
+            canvas.text({x + beside, box_.y + 26 * u}, in_symbols ? part.symbol : std::string(part.label), style);
+            x += w;
         }
     }
     // Terms that are zero throughout are not in the legend, such as the bending energy of a rigid beam.
@@ -140,9 +127,9 @@ class EnergyPanel final : public ChartPanel {
     void draw_member(Canvas& canvas) const {
         if (context_.members() == 1) return;
         const double u = context_.unit;
-        const Box plot = plot_area(box_, u, context_.tick);
+        const Box plot = plot_area(box_, u, context_.letters.words);
         canvas.text({plot.x + 10 * u, plot.y + 24 * u}, context_.labels[static_cast<std::size_t>(member_)],
-                    {.size = 18 * u,
+                    {.size = context_.letters.words,
                      .color = context_.palette->ink,
                      .weight = Weight::semibold,
                      .max_width = plot.w - 20 * u,

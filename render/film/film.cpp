@@ -92,11 +92,11 @@ void Film::Prepared::draw_header(Canvas& canvas) {
     const FilmSetup& setup = *context.setup;
     const Layout& places = context.places;
     if (const auto& b = places.title; b && !setup.title.empty()) {
-        const FittedText title = fitted_title(canvas, setup.title, *b, u);
+        const FittedText title = fitted_title(canvas, setup.title, *b, context.letters);
         if (title.cut) cut_texts.emplace_back("the title");
-        TextStyle style = title_style(u, context.palette->ink);
+        TextStyle style = title_style(context.letters, context.palette->ink);
         style.size = title.size;
-        canvas.text({b->x, b->y + 38 * u}, title.markup, style);
+        canvas.text({b->x, b->y + 0.95 * context.letters.title}, title.markup, style);
     }
     std::vector<const sim::Problem*> problems;
     for (int m = 0; m < context.members(); ++m) problems.push_back(&context.motion(m).problem);
@@ -105,9 +105,9 @@ void Film::Prepared::draw_header(Canvas& canvas) {
     const ParameterLine line = parameter_line(canvas, places, pieces);
     for (const ParameterLine::Piece& piece : line.pieces)
         canvas.text(piece.baseline, piece.markup, {.size = line.size, .color = context.palette->muted});
-    if (const auto& b = places.note; b && !setup.accuracy_note.empty())
-        canvas.text({b->right(), b->y + 19 * u}, escaped(context.translate(setup.accuracy_note)),
-                    {.size = 17 * u + 0.4 * (context.tick - 17 * u),
+    if (const auto& b = places.warning; b && !setup.warning.empty())
+        canvas.text({b->right(), b->y + 19 * u}, escaped(context.translate(setup.warning)),
+                    {.size = context.letters.words,
                      .color = context.palette->muted,
                      .align = HAlign::right,
                      .max_width = b->w});

@@ -124,7 +124,7 @@ struct FilmSetup : Motion {
     bool slow_motion = false;       // the standard layout shows collisions one by one
     std::vector<Callout> callouts;
     std::vector<FilmData> data;
-    std::string accuracy_note;  // plain text in the corner; may be empty
+    std::string warning;  // plain text in the corner; may be empty
 };
 
 // The panels that the standard layout shows beside the mechanism.

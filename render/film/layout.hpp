@@ -46,11 +46,19 @@ struct LayoutNode {
 struct Shown {
     bool title = true, parameters = true, clock = true;
     bool legend = true;     // colour scales, exaggeration, playback speed
-    bool accuracy = true;   // the note in the corner
+    bool warning = true;    // of a motion that leaves its model or is not reproducible, in the corner
     bool labels = true;     // letters of angle, speed and force, peaks, scale bar
     bool captions = false;  // texts of events, in a band below the panels
     double size = 1;        // scale factor of letters, lines and marks
     bool operator==(const Shown&) const = default;
+};
+
+// The three sizes of letters in a picture [px]: 34, 20 and 16 in one of 1280×720, with half as much again in a
+// portrait.
+struct Letters {
+    double title = 51;    // and the clock
+    double heading = 30;  // of panels, readings, names of motions
+    double words = 24;    // all others
 };
 
 struct PanelSlot {
@@ -59,13 +67,13 @@ struct PanelSlot {
 };
 
 struct Layout {
-    double unit = 1;           // [px] of one design pixel (1920×1080)
-    double tick = 17;          // size of letters at axes and scales [px]
+    double unit = 1;  // [px] of one design pixel (1920×1080)
+    Letters letters;
     std::optional<Box> title;  // boxes of lines of text
     std::optional<Box> parameters;
-    std::optional<Box> clock;     // and exaggeration and speed beside it
-    std::optional<Box> scales;    // colour bars
-    std::optional<Box> note;      // accuracy
+    std::optional<Box> clock;   // and exaggeration and speed beside it
+    std::optional<Box> scales;  // colour bars
+    std::optional<Box> warning;
     std::optional<Box> captions;  // texts of events
     std::vector<PanelSlot> panels;
 
@@ -94,9 +102,9 @@ Layout layout(int width, int height, const LayoutNode& user_grid, const Shown& s
 std::vector<PanelSpec> panels_of(const LayoutNode& grid);
 std::vector<PanelSpec> omitted_panels(int width, int height, const LayoutNode& user_grid, const Shown& shown = {});
 
-// The rectangle of the axes in a panel's box, which leaves space for heading and axis labels of size `tick`; whole
+// The rectangle of the axes in a panel's box, which leaves space for heading and axis labels of size `words`; whole
 // pixels.
-Box plot_area(const Box& box, double unit, double tick);
+Box plot_area(const Box& box, double unit, double words);
 
 // ---- kinds of panels ---------------------------------------------------------------------------
 

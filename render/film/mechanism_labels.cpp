@@ -12,7 +12,7 @@ namespace {
 
 using std::numbers::pi;
 
-double letter_size(const MechanismView& at) { return std::max({21 * at.unit, at.context.tick, kReadable}); }
+double letter_size(const MechanismView& at) { return at.context.letters.heading; }
 
 // A letter that belongs to `owner` is drawn while that is in the view, and stays inside the view [px].
 void draw_letter(const MechanismScene& s, Vec2 owner, Vec2 middle, const char* markup, Color color) {

@@ -38,7 +38,7 @@ MechanismLegend::MechanismLegend(const MechanismView& at) : at_(at) {
 // Mechanisms beside each other have letters of one size, that of the longest name.
 void MechanismLegend::fit_names(const Canvas& canvas) {
     const FilmContext& context = at_.context;
-    size_ = std::max(24 * at_.unit, context.heading());
+    size_ = context.letters.heading;
     const auto width = [&](const std::string& name) {
         return canvas.measure(text_markup(name), name_style(at_, size_)).w;
     };
@@ -68,8 +68,10 @@ void MechanismLegend::draw(Canvas& canvas, const MechanismView& at) const {
 void MechanismLegend::scale_bar(Canvas& canvas, const MechanismView& at) const {
     const double length = round_down_125(0.17 * at.box.w / at.look.camera.scale);  // [m]
     const double w = length * at.look.camera.scale, u = at_.unit;
-    const TextStyle style{
-        .size = at_.context.tick, .color = at_.palette.muted, .align = HAlign::centre, .halo = at_.palette.paper};
+    const TextStyle style{.size = at_.context.letters.words,
+                          .color = at_.palette.muted,
+                          .align = HAlign::centre,
+                          .halo = at_.palette.paper};
     const std::string text = quantity(length, "m");
     const double middle = at_.box.right() - 5 * u - std::max(w, canvas.measure(text, style).w) / 2;
     const double x = middle - w / 2, y = at_.box.bottom() - 8 * u;

@@ -107,6 +107,24 @@ void MechanismPanel::draw_still(Canvas& canvas, const MechanismView& at) const {
 
 // ---- moving parts ----------------------------------------------------------------------------
 
+// What a near camera cuts off fades out towards the edges of its panel, the more the nearer it is.
+static void fade_edges(Canvas& canvas, const MechanismView& at) {
+    constexpr int kSteps = 24;
+    constexpr double kWidth = 60;  // [design px]
+    if (at.context.setup->view.transparent) return;
+    const double step = std::round(std::clamp(at.zoom() - 1, 0.0, 1.0) * kWidth * at.unit / kSteps);
+    if (step < 1) return;
+    const Box& b = at.box;
+    for (int k = 0; k < kSteps; ++k) {
+        const double inner = k * step;
+        for (const Box& strip : {Box{b.x + inner, b.y, step, b.h}, Box{b.right() - inner - step, b.y, step, b.h},
+                                 Box{b.x, b.y + inner, b.w, step}, Box{b.x, b.bottom() - inner - step, b.w, step}}) {
+            canvas.rectangle(strip);
+            canvas.fill(at.palette.paper.faded(1 - (k + 0.5) / kSteps));
+        }
+    }
+}
+
 void MechanismPanel::draw(Canvas& canvas, int frame, Style style, State* state) const {
     auto& threads = *static_cast<ThreadState*>(state);
     if (!cameras_.near()) return draw_moving(canvas, at_, frame, style, threads);
@@ -114,6 +132,7 @@ void MechanismPanel::draw(Canvas& canvas, int frame, Style style, State* state) 
     threads.seen.put(canvas, at.box, [&](Canvas& inside) {
         draw_still(inside, at);
         draw_moving(inside, at, frame, style, threads);
+        fade_edges(inside, at);
         legend_.draw(inside, at);
     });
 }

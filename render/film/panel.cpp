@@ -31,7 +31,10 @@ std::vector<PanelSpec> standard(const FilmSetup& setup) {
         if (!shown->problem.cam) shown = &other;
         force = force || has_force(other);
     }
-    std::vector<PanelSpec> specs = standard_panels(shown->problem, setup.slow_motion);
+    // A still of an instant in contact shows that collision, as slow motion does.
+    const bool in_contact =
+        setup.frames() == 1 && setup.others.empty() && setup.pose(0).nearest && setup.pose(0).nearest->force > 0;
+    std::vector<PanelSpec> specs = standard_panels(shown->problem, setup.slow_motion || in_contact);
     const bool impulsive = shown->problem.contact.model == sim::ContactModel::restitution;
     // Panels without data are removed.
     std::erase_if(specs, [&](const PanelSpec& s) {
@@ -60,7 +63,10 @@ std::vector<Channel> chart_channels(const std::vector<PanelSpec>& panels) {
         if (std::ranges::find(out, c) == out.end()) out.push_back(c);
     };
     for (const PanelSpec& panel : panels) {
-        for (Channel c : panel.channels) add(c);
+        for (Channel c : panel.channels) {
+            add(c);
+            if (c.kind == ChannelKind::friction_force) add({ChannelKind::contact_force, 0});  // limits it
+        }
         for (ChannelKind kind : type_of(panel.kind).channels) add({kind, 0});
     }
     return out;
@@ -91,8 +97,9 @@ FilmContext::FilmContext(std::shared_ptr<const FilmSetup> s) : setup(std::move(s
     palette = &colors;
     Shown shown = setup->view.show;
     shown.title = shown.title && !setup->title.empty();
+    shown.warning = shown.warning && !setup->warning.empty();
     shown.captions = !setup->callouts.empty();
-    std::string written = setup->title + setup->accuracy_note;
+    std::string written = setup->title + setup->warning;
     for (const Callout& c : setup->callouts) written += c.text;
     for (int m = 0; m < members(); ++m) written += motion(m).label;
     for (const FilmData& each : setup->data) written += each.label;
@@ -113,7 +120,7 @@ FilmContext::FilmContext(std::shared_ptr<const FilmSetup> s) : setup(std::move(s
         extent = view_extent_of(*this);
     if (!setup->layout) places = layout(setup->width, setup->height, standard(*setup), mechanisms, extent, shown);
     unit = places.unit;
-    tick = places.tick;
+    letters = places.letters;
     span = {times.front(), times.back()};
     if (const auto* t = column(setup->chart, {ChannelKind::t, 0}); t && !t->empty()) {
         span.low = std::min(span.low, *std::ranges::min_element(*t));
@@ -249,9 +256,11 @@ std::string motion_suffix(const FilmContext& context, int member) {
 }
 
 void draw_heading(Canvas& canvas, const FilmContext& context, const Box& box, const std::string& markup) {
-    canvas.text(
-        {box.x, box.y + 26 * context.unit}, markup,
-        {.size = context.heading(), .color = context.palette->ink, .weight = Weight::semibold, .max_width = box.w});
+    canvas.text({box.x, box.y + 26 * context.unit}, markup,
+                {.size = context.letters.heading,
+                 .color = context.palette->ink,
+                 .weight = Weight::semibold,
+                 .max_width = box.w});
 }
 
 void stroke_places(Canvas& canvas, const FilmContext& context, const std::vector<float>& places, double width,

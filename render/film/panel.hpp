@@ -28,11 +28,8 @@ struct FilmContext {
     const Palette* palette = nullptr;  // points to `colors`
     bool cjk = false;                  // some text needs the Chinese font
     Layout places;
-    double unit = 1;   // [px] of one design pixel
-    double tick = 17;  // size of letters at axes and scales [px]
-    double heading() const {
-        return figure::heading_size(unit, tick);
-    }  // size of letters of headings and readings [px]
+    double unit = 1;  // [px] of one design pixel
+    Letters letters;
     TimeFormat time;
     double factor = 1;                              // exaggeration of deflection, the same for all motions
     double largest_force = 0;                       // of the film [N]

@@ -7,8 +7,8 @@
 namespace beamcam::render {
 namespace {
 
-constexpr double kTitle = 40, kSmallTitle = 28, kParameters = 21, kSmallParameters = 17;  // [design px]
-constexpr double kBetweenParameters = 0.75;  // gap between parameters, in sizes of their letters
+constexpr double kSmallTitle = 0.7, kSmallParameters = 0.85;  // of the usual sizes
+constexpr double kBetweenParameters = 0.75;                   // gap between parameters, in sizes of their letters
 
 // With ordinary spaces, for a terminal.
 std::string plain(const std::string& markup) {
@@ -20,25 +20,25 @@ std::string plain(const std::string& markup) {
 
 }  // namespace
 
-TextStyle title_style(double u, Color color) {
-    return {.size = kTitle * u, .color = color, .weight = Weight::semibold};
+TextStyle title_style(const Letters& letters, Color color) {
+    return {.size = letters.title, .color = color, .weight = Weight::semibold};
 }
 
-FittedText fitted_title(const Canvas& canvas, const std::string& title, const Box& box, double u) {
-    return fitted_text(canvas, title, title_style(u), kSmallTitle * u, box.w);
+FittedText fitted_title(const Canvas& canvas, const std::string& title, const Box& box, const Letters& letters) {
+    return fitted_text(canvas, title, title_style(letters), kSmallTitle * letters.title, box.w);
 }
 
 ParameterLine parameter_line(const Canvas& canvas, const Layout& places, const std::vector<std::string>& pieces) {
     ParameterLine out;
-    for (const double letters : {kParameters, kSmallParameters}) {
+    for (const double size : {1.0, kSmallParameters}) {
         if (!places.parameters) break;
         const Box& b = *places.parameters;
-        out.size = std::max(letters * places.unit, kReadable);
+        out.size = std::max(size * places.letters.words, kReadable);
         out.pieces.clear();
         for (double x = b.x; const std::string& piece : pieces) {
             const double end = x + canvas.measure(piece, {.size = out.size}).w;
             if (end > b.right()) break;
-            out.pieces.push_back({piece, {x, b.y + 24 * places.unit}});
+            out.pieces.push_back({piece, {x, b.y + 1.2 * places.letters.words}});
             x = end + kBetweenParameters * out.size;
         }
         if (out.pieces.size() == pieces.size()) break;
@@ -63,7 +63,7 @@ std::vector<std::string> omitted_text(int width, int height, const std::optional
         const Fonts fonts(needs_cjk(title));
         Image scratch(1, 1);
         const Canvas canvas(scratch, fonts);
-        if (titled && fitted_title(canvas, title, *places.title, places.unit).cut)
+        if (titled && fitted_title(canvas, title, *places.title, places.letters).cut)
             out.emplace_back("the end of the title");
         missing = parameter_line(canvas, places, missing).omitted;
     }

@@ -28,8 +28,8 @@ struct ParameterLine {
 ParameterLine parameter_line(const Canvas& canvas, const Layout& places, const std::vector<std::string>& pieces);
 
 // Style of the title at full size.
-TextStyle title_style(double unit, Color color = {});
-FittedText fitted_title(const Canvas& canvas, const std::string& title, const Box& box, double unit);
+TextStyle title_style(const Letters& letters, Color color = {});
+FittedText fitted_title(const Canvas& canvas, const std::string& title, const Box& box, const Letters& letters);
 
 // The texts for which a picture of this size, with this layout or the standard one of `members` mechanisms, has no
 // space: "the title" or "the end of the title", parameters, "colour scales". Loads fonts, unless there is no space for

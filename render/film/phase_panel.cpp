@@ -49,7 +49,7 @@ class PhasePanel final : public FilmPanel {
         axes_.x = axis(all.x0, all.x1, "$θ$", ChannelKind::theta, x_factor_);
         axes_.y = axis(all.y0, all.y1, "d$θ$/d$t$", ChannelKind::theta_dot, y_factor_);
         Image none(1, 1);
-        plot_.place(Canvas(none, *context.fonts), plot_area(slot.box, context.unit, context.tick));
+        plot_.place(Canvas(none, *context.fonts), plot_area(slot.box, context.unit, context.letters.words));
         for (int m = 0; m < context.members(); ++m) paths_.push_back(path(m));
     }
 
@@ -57,7 +57,7 @@ class PhasePanel final : public FilmPanel {
         const double u = context_.unit;
         const std::string name = plot_.y().name(),
                           words = heading(ChannelKind::theta_dot, context_.setup->view.lang) + name;
-        const TextStyle heading{.size = context_.heading(), .weight = Weight::semibold};
+        const TextStyle heading{.size = context_.letters.heading, .weight = Weight::semibold};
         const Box& plot = plot_.box();
         draw_heading(canvas, context_, {plot.x, box_.y, plot.w, plot.h},
                      first_that_fits(canvas, {words, name}, heading, plot.w));

@@ -7,8 +7,12 @@ namespace beamcam::render {
 namespace {
 
 constexpr double kSmallestUnit = 0.5;  // 16 design pixels of text are 8 px, the smallest readable size
-// Size of axis labels: a fiftieth of the picture's height is readable from the back of a lecture room.
-constexpr double kTickShare = 0.0204, kLeastTick = 17, kMostTick = 26;  // of the shorter side; [design px]
+constexpr double kTightWords = 17;     // letters for which the margins of plots are stated below [design px]
+
+Letters letters_of(double design_pixel) {
+    const double words = std::max(kReadable, 24 * design_pixel);
+    return {34 / 16.0 * words, 20 / 16.0 * words, words};
+}
 
 constexpr double kScales = 560;      // width of two colour scales [design px]
 constexpr double kCaptionBand = 48;  // height [design px]
@@ -20,8 +24,8 @@ Box whole(const Box& b) {
     return {x, y, std::max(1.0, std::round(b.right()) - x), std::max(1.0, std::round(b.bottom()) - y)};
 }
 
-Box plot_area(const Box& box, double u, double tick) {
-    const double more = tick - kLeastTick * u, left = 70 * u + 2.4 * more, below = 44 * u + more;
+Box plot_area(const Box& box, double u, double words) {
+    const double more = words - kTightWords * u, left = 70 * u + 2.4 * more, below = 44 * u + more;
     return whole({box.x + left, box.y + 46 * u, box.w - left - 8 * u, box.h - 46 * u - below});
 }
 
@@ -35,10 +39,10 @@ PictureFrame picture_frame(int width, int height, bool beside, const Shown& show
     PictureFrame f;
     Layout& out = f.out;
     f.wide = width >= 1.4 * height;
-    out.unit = shown.size * std::max(kSmallestUnit, f.wide ? std::min(width / 1920.0, height / 1080.0)
-                                                           : std::min(width, height) / 1240.0);
+    const double design_pixel = f.wide ? std::min(width / 1920.0, height / 1080.0) : std::min(width, height) / 1080.0;
+    out.letters = letters_of(shown.size * design_pixel);
+    out.unit = shown.size * std::max(kSmallestUnit, (f.wide ? 1 : 1080 / 1240.0) * design_pixel);
     const double u = out.unit, w = width, h = height;
-    out.tick = std::clamp(shown.size * kTickShare * std::min(w, h), kLeastTick * u, kMostTick * u);
     const double margin = f.margin = std::min(64 * u, 0.04 * std::min(w, h) + 12 * u);
     f.top = margin * 0.8, f.bottom = h - margin * 0.7, f.right = w - margin;
 
@@ -47,16 +51,16 @@ PictureFrame picture_frame(int width, int height, bool beside, const Shown& show
     const bool has_clock = (shown.clock || shown.legend) && w >= 230 * u && h >= 190 * u;
     const bool is_large = w >= (f.wide ? 1150 : 660) * u && h >= 600 * u, has_scales = shown.legend && is_large;
     if (has_title) {
-        out.title = Box{margin, f.top, w - 2 * margin, 54 * u};
-        f.top += 54 * u;
+        out.title = Box{margin, f.top, w - 2 * margin, 64 * u};
+        f.top += 64 * u;
     }
     if (has_parameters) {
         const double column = beside && f.wide && has_column(w, h, u) ? kPanelColumn * u + widening(w, u) + 40 * u : 0;
-        out.parameters = Box{margin, f.top, w - 2 * margin - column, 36 * u};
-        f.top += 36 * u;
+        out.parameters = Box{margin, f.top, w - 2 * margin - column, 40 * u};
+        f.top += 40 * u;
     }
-    if (shown.accuracy && is_large) {
-        out.note = Box{margin, f.bottom - 26 * u, w - 2 * margin, 26 * u};
+    if (shown.warning && is_large) {
+        out.warning = Box{margin, f.bottom - 26 * u, w - 2 * margin, 26 * u};
         f.bottom -= 34 * u;
     }
     const bool apart = has_scales && !f.wide;  // beside the clock there is not enough space

@@ -204,6 +204,25 @@ static void add_data(const FilmContext& context, const PanelSpec& spec, ChartCon
         }
 }
 
+// The limits ±μF of stick–slip friction beside the friction force, which slides while it is on one of them. True if the
+// chart has them.
+static bool add_sliding_limits(const FilmContext& context, const PanelSpec& spec, ChartContent& c) {
+    const auto* law = std::get_if<sim::StickSlipFriction>(&context.setup->problem.contact.friction);
+    const sim::Table& chart = context.setup->chart;
+    const auto *t = column(chart, {ChannelKind::t, 0}), *force = column(chart, {ChannelKind::contact_force, 0});
+    if (!law || !t || !force || context.members() > 1 || spec.channels.size() > 1 ||
+        spec.channels.front().kind != ChannelKind::friction_force)
+        return false;
+    for (const double side : {-1, 1}) {
+        figure::Series limit{.color = context.palette->muted};
+        limit.faint = context.palette->tint(context.palette->muted, 0.25);
+        limit.dash = FilmContext::dash_of(1);
+        for (std::size_t i = 0; i < t->size(); ++i) limit.add((*t)[i], side * law->coefficient * (*force)[i]);
+        c.panel.series.push_back(std::move(limit));
+    }
+    return true;
+}
+
 ChartContent blank_content(const FilmContext& context, const PanelSpec& spec, int member) {
     ChartContent c;
     c.window = spec.window;
@@ -275,6 +294,7 @@ ChartContent strip_content(const FilmContext& context, const PanelSpec& spec) {
             c.panel.series.push_back(std::move(curve));
         }
     }
+    if (add_sliding_limits(context, spec, c)) symbols += ", ±$μF$";
     c.blank_zeros = is_force(first) && context.members() > 1;  // a row of zeros would say nothing
     Range values = range_of(context, spec, c.panel.series);
     if (single && dotted) values = add_places(context, shown_time(context, spec), c);

@@ -42,7 +42,10 @@ class CollisionPanel final : public FilmPanel {
 
   public:
     CollisionPanel(const FilmContext& context, const PanelSlot& slot)
-        : context_(context), spec_(slot.spec), box_(slot.box), plot_(plot_area(slot.box, context.unit, context.tick)) {
+        : context_(context),
+          spec_(slot.spec),
+          box_(slot.box),
+          plot_(plot_area(slot.box, context.unit, context.letters.words)) {
         for (const sim::Impact& i : context.motion(0).impacts) {
             if (i.t_start > context.span.high) break;
             const double end = std::min(i.t_end.value_or(context.span.high), context.span.high);

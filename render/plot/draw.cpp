@@ -23,6 +23,7 @@ struct Grid {
 
 Grid grid_of(const Figure& figure, double width) {
     const std::size_t n = std::max<std::size_t>(1, figure.panels.size());
+    if (figure.in_pairs) return {(n + 1) / 2, std::min<std::size_t>(n, 2)};
     if (figure.stack || width < kSideBySideFrom || n == 1) return {n, 1};
     const std::size_t columns = n == 4 ? 2 : std::min<std::size_t>(n, 3);
     return {(n + columns - 1) / columns, columns};

@@ -97,7 +97,10 @@ struct ColorBar {
     std::optional<double> from = {}, to = {};
     bool hidden = false;     // of an inset: the panel around it shows the bar
     bool is_signed = false;  // signed_color, from −to to `to`; else map_color
+    bool root = false;       // colours follow the square root of the share, so that small values differ too
 };
+// The colour of a value by its share of the largest: −1…1 if the bar is signed, else 0…1.
+Color color_of(const ColorBar& bar, double share);
 
 // Drawn shapes of a panel without axes, in its own plane (Y up); everything must fit, proportions stay true.
 struct Shape {
@@ -161,9 +164,10 @@ struct Figure {
     std::string name = {};   // "free-fall"
     std::string title = {};  // markup, for the caption and the file's properties
     std::vector<Panel> panels = {};
-    bool stack = false;    // panels above each other however wide the page; else side by side where there is room
-    bool share_x = false;  // stacked panels have one x axis: numbers and label below the last
-    double aspect = 0.66;  // height by width of one column
+    bool stack = false;     // panels above each other however wide the page; else side by side where there is room
+    bool in_pairs = false;  // two panels side by side however narrow the page
+    bool share_x = false;   // stacked panels have one x axis: numbers and label below the last
+    double aspect = 0.66;   // height by width of one column
     std::optional<double> height = {};  // [mm]; instead of what follows from the aspect
     std::string caption = {};           // markup: the parameters
     std::string accuracy = {};          // markup: tolerance and energy balance; ends the caption

@@ -207,12 +207,16 @@ TimeFormat time_format(const std::vector<double>& times, double latest) {
             if (std::string(p.symbol) == u.prefix) out.unit = p.factor, out.symbol = u.symbol;
     }
     if (times.back() == times.front()) {
-        // A still shows its instant to a millionth of the unit at most.
+        // A still shows a round instant with all its digits, that of an event to a ten-thousandth of the unit.
+        constexpr int kMost = 6, kOfEvents = 4;
         const double t = times.front() / out.unit;
-        for (out.decimals = 1; out.decimals < 6; ++out.decimals) {
+        const auto is_whole = [&] {
             const double scaled = t * std::pow(10.0, out.decimals);
-            if (std::abs(scaled - std::round(scaled)) < 1e-6) break;
-        }
+            return std::abs(scaled - std::round(scaled)) < 1e-6;
+        };
+        for (out.decimals = 1; out.decimals <= kMost; ++out.decimals)
+            if (is_whole()) return out;
+        out.decimals = kOfEvents;
         return out;
     }
     // Steps of few frames are ignored, and those of rounding: the beginnings and ends of freezes.

@@ -1,6 +1,7 @@
 #include "render/plot/panel_names.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 namespace beamcam::render::figure {
@@ -168,12 +169,20 @@ void PanelNames::draw_titles(const Plot& plot, double top, bool alone) const {
     for (const std::string& line : title_) sheet_.text({x, y}, line, title), y += step;
 }
 
+Color color_of(const ColorBar& bar, double share) {
+    const double shown = bar.root ? std::copysign(std::sqrt(std::abs(share)), share) : share;
+    return bar.is_signed ? signed_color(shown) : map_color(shown);
+}
+
 void PanelNames::draw_color_bar(const Plot& plot) const {
     const AxisMap& axis = *plot.bar();
     const Box bar{plot.box().right() + 2.2 * style_.gap, plot.box().y, 0.9 * style_.letters, plot.box().h};
     std::vector<Color> colors;
-    for (int k = 0; k <= 32; ++k)
-        colors.push_back(panel_.color_bar->is_signed ? signed_color(k / 16.0 - 1) : map_color(k / 32.0));
+    constexpr int kSteps = 128;
+    for (int k = 0; k <= kSteps; ++k) {
+        const double share = static_cast<double>(k) / kSteps;
+        colors.push_back(color_of(*panel_.color_bar, panel_.color_bar->is_signed ? 2 * share - 1 : share));
+    }
     sheet_.gradient(bar, colors);
     plot.draw_page_ticks(sheet_, axis, bar, Side::right, true, 0.6 * style_.tick, 0.35 * style_.tick);
     sheet_.rectangle(bar);

@@ -96,10 +96,10 @@ PlotStyle scaled(PlotStyle style, double factor) {
     return style;
 }
 
-PlotStyle film_style(const Palette& palette, double unit, double numbers) {
+PlotStyle film_style(const Palette& palette, double unit, double letters, double numbers) {
     PlotStyle s;
     s.palette = &palette;
-    s.letters = heading_size(unit, numbers);
+    s.letters = letters;
     s.numbers = numbers;
     s.line = s.unit = unit;
     s.frame = std::max(1.0, unit);

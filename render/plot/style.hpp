@@ -43,9 +43,7 @@ struct PlotStyle {
 PlotStyle style_of(const Column& column);
 PlotStyle scaled(PlotStyle style, double factor);
 // `numbers`: size of the letters at axes [px].
-PlotStyle film_style(const Palette& palette, double unit, double numbers);
-// The size of headings and readings in films [px].
-inline double heading_size(double unit, double numbers) { return std::max(21 * unit, 1.14 * numbers); }
+PlotStyle film_style(const Palette& palette, double unit, double letters, double numbers);
 
 // The k-th line of a plot: colours of Okabe & Ito (2008), with dashes and markers that distinguish lines in grey.
 enum class Marker { circle, square, triangle, diamond, down, cross };

@@ -77,9 +77,9 @@ FigureDrawing prepare_maps(const Scene& scene, const FigureOutput& how, MotionRe
         if (panels.empty())
             throw render::PictureError(fmt::format(
                 "figure impact-maps: nothing strikes the cam from {:g} s to {:g} s; raise time.end", from, to));
-        const double aspect = 0.6 * static_cast<double>(panels.size());
+        const double aspect = 0.8 * static_cast<double>(panels.size());
         for (std::size_t k = 0; k < panels.size(); ++k) panels[k].letter = panel_letter(k);
-        return {.panels = std::move(panels), .aspect = aspect};
+        return {.panels = std::move(panels), .in_pairs = true, .aspect = aspect};
     };
     return figure_of_motion(motion, draw);
 }

@@ -41,23 +41,24 @@ Panel kymograph_panel(const std::vector<double>& v, const ShownPoses& shown, dou
     for (const double each : v) most = std::max(most, std::abs(each));
     const render::Prefix prefix = render::prefix_for(most);
     const double range = most > 0 ? most : 1;
+    const render::figure::ColorBar bar{
+        .label = fmt::format("{0}$v$($x$, $t$){0} / {1}m", magnitudes ? "|" : "", prefix.symbol),
+        .from = magnitudes ? 0 : -range / prefix.factor,
+        .to = range / prefix.factor,
+        .is_signed = !magnitudes,
+        .root = true};
     render::figure::Cells cells;
     for (int k = 0; k <= kColumns; ++k) cells.x.push_back(shown.from + (shown.to - shown.from) * k / kColumns);
     for (int i = 0; i <= kStations; ++i) cells.y.push_back(length * i / kStations);
     for (std::size_t i = 0; i < kStations; ++i)
         for (std::size_t k = 0; k < kColumns; ++k) {
-            const double share = v[k * kStations + i] / range;
-            cells.colors.push_back(magnitudes ? render::figure::map_color(share) : render::figure::signed_color(share));
+            cells.colors.push_back(color_of(bar, v[k * kStations + i] / range));
             cells.values.push_back(v[k * kStations + i] / prefix.factor);
         }
     return {.x = {.label = "$t$ / s", .tight = true},
             .y = {.label = "$x$ / m", .tight = true},
             .cells = {std::move(cells)},
-            .color_bar = render::figure::ColorBar{.label = fmt::format("{0}$v$($x$, $t$){0} / {1}m",
-                                                                       magnitudes ? "|" : "", prefix.symbol),
-                                                  .from = magnitudes ? 0 : -range / prefix.factor,
-                                                  .to = range / prefix.factor,
-                                                  .is_signed = !magnitudes},
+            .color_bar = bar,
             .legend = Legend::none};
 }
 

@@ -87,8 +87,8 @@ ValueFormat background_format(render::View& view) {
 ValueFormat show_format(render::Shown& show) {
     static const std::pair<std::string, render::Shown> kPresets[] = {
         {"all", {}},
-        {"talk", {.parameters = false, .accuracy = false}},
-        {"paper", {.title = false, .parameters = false, .accuracy = false}},
+        {"talk", {.parameters = false, .warning = false}},
+        {"paper", {.title = false, .parameters = false, .warning = false}},
         {"clean", {false, false, false, false, false, false}}};
     static const std::vector<std::string> kNames{"all", "talk", "paper", "clean"};
     // Presets do not change the size of the text.

@@ -18,7 +18,7 @@ namespace {
 std::string plain_digit(double value) { return render::to_plain(one_digit(value)); }
 
 std::string beyond_model(const sim::Problem& problem) {
-    return fmt::format(" · bends beyond {}", sim::name(problem.beam.model));
+    return fmt::format("bends beyond {}", sim::name(problem.beam.model));
 }
 
 render::Motion motion_of(const PlannedPictures& p, const MotionRequest& shown, sim::Result& result) {
@@ -49,7 +49,7 @@ std::string paler_note(const render::FilmSetup& setup) {
     if (!setup.others.empty()) note.clear();
     const bool any = !setup.unreliable.empty() ||
                      std::ranges::any_of(setup.others, [](const auto& motion) { return !motion.unreliable.empty(); });
-    return any ? " · paler: θ not reproducible" + note : std::string();
+    return any ? "paler: θ not reproducible" + note : std::string();
 }
 
 std::vector<render::FilmData> data_of(const Scene& scene) {
@@ -62,25 +62,21 @@ std::vector<render::FilmData> data_of(const Scene& scene) {
     return out;
 }
 
-// The accuracy note is that of the least accurate motion.
 void add_motions(const Plan& plan, const PlannedPictures& p, std::vector<sim::Result>& results,
                  render::FilmSetup& setup) {
-    double worst = -1;
-    std::string beyond;
     for (const std::size_t i : p.motions) {
         const sim::Problem& problem = plan.motions[i].problem;
         sim::Result& result = results[i];
-        const double share = result.energy_scale > 0 ? result.energy_residual_max / result.energy_scale : 0;
-        if (share > worst) worst = share, setup.accuracy_note = accuracy_note(problem, result);
-        if (result.beyond_model) beyond = beyond_model(problem);
+        if (result.beyond_model) setup.warning = beyond_model(problem);
         render::Motion motion = motion_of(p, plan.motions[i], result);
         if (i == p.motions.front())
             static_cast<render::Motion&>(setup) = std::move(motion);
         else
             setup.others.push_back(std::move(motion));
     }
-    if (setup.accuracy_note.find(" · bends beyond ") == std::string::npos) setup.accuracy_note += beyond;
-    setup.accuracy_note += paler_note(setup);
+    const std::string paler = paler_note(setup);
+    if (!setup.warning.empty() && !paler.empty()) setup.warning += " · ";
+    setup.warning += paler;
 }
 
 }  // namespace
@@ -89,7 +85,7 @@ std::string accuracy_note(const sim::Problem& problem, const sim::Result& result
     std::string note = fmt::format("rtol {}", plain_digit(problem.solver.rtol));
     if (result.energy_scale > 0 && result.energy_residual_max > 0)
         note += fmt::format(" · energy closes to {}", plain_digit(result.energy_residual_max / result.energy_scale));
-    if (result.beyond_model) note += beyond_model(problem);
+    if (result.beyond_model) note += " · " + beyond_model(problem);
     return note;
 }
 

@@ -62,7 +62,8 @@ static void visit(SceneVisitor& v, render::Shown& show) {
     v.boolean("parameters", show.parameters, "The line of parameters below the title.");
     v.boolean("clock", show.clock, "The clock.");
     v.boolean("legend", show.legend, "Colour scales, and the factors of deflection and time.");
-    v.boolean("accuracy", show.accuracy, "Tolerance and error of the energy balance, in the corner.");
+    v.boolean("accuracy", show.warning,
+              "A warning in the corner where the beam bends beyond its model, or θ is not reproducible.");
     v.boolean("labels", show.labels, "Letters and scale bar in the mechanism, peaks of forces beside the clock.");
 }
 

@@ -107,7 +107,9 @@ void Planner::add(const ResolvedOutput& picture) {
     if (kept > 0) plan_.kept.push_back(fmt::format("{} of {}", counted(kept, "frame"), p.file));
     if (p.draw.empty()) return;
     p.omitted_panels = omitted_panels(p);
-    const std::vector<render::PanelSpec> panels = panels_of(p, scene(), p.end_time);
+    std::vector<render::PanelSpec> panels = panels_of(p, scene(), p.end_time);
+    if (p.kind == PlannedPictures::Kind::still && !p.layout && p.compare.empty())
+        panels = render::standard_panels(scene().problem, true);  // in contact it shows the collision
     if (p.compare.empty())
         p.motions.push_back(add_motion({scene().problem, own_key(), request_of(p, scene().problem, panels)}));
     for (const Compared& each : p.compare)

@@ -118,10 +118,12 @@ double end_of(const PictureOutput& p, const Scene& scene) {
     return p.at.kind == Instant::Kind::time ? p.at.t : scene.end_time;
 }
 
-// A strip of one collision at a time needs more rows than one of the whole time, a page more instants.
+// A strip of one collision at a time needs more rows than one of the whole time, a page more instants. A still at an
+// event may be in contact, and then has such a strip.
 bool shows_collisions(const PictureOutput& p, const Scene& scene) {
     if (!p.compare.empty() || !scene.problem.cam) return false;
     return p.kind == PictureOutput::Kind::page ||
+           (p.kind == PictureOutput::Kind::still && p.at.is_event() && !p.layout) ||
            std::ranges::any_of(panels_of(p, scene, end_of(p, scene)), &render::PanelSpec::by_collision);
 }
 

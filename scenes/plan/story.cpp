@@ -119,9 +119,13 @@ std::string energy_at_apex(double touch, double apex, const sim::Problem& proble
     for (const Part& each : sources)  // parts below half a percent are left out
         if (each.size > 0.005 * all)
             from += fmt::format("{}{} {}", from.empty() ? "" : ", ", quantity(each.size, "J"), each.name);
-    for (const Part& each : uses)
-        if (each.size > 0.005 * all)
-            to += fmt::format("{}{:.0f} % {}", to.empty() ? "" : ", ", 100 * each.size / all, each.name);
+    double used = 0;  // rounded in turn, so that the percentages add to 100
+    for (const Part& each : uses) {
+        const double before = std::round(100 * used / all);
+        used += std::max(each.size, 0.0);
+        const double percent = std::round(100 * used / all) - before;
+        if (percent > 0) to += fmt::format("{}{:.0f} % {}", to.empty() ? "" : ", ", percent, each.name);
+    }
     return "energy " + from + ": " + to;
 }
 

@@ -117,7 +117,7 @@ render::FilmSetup synthetic_film(const Synthetic& how) {
     if (!how.cam) p.cam.reset();
     if (how.half_depth) p.contact.offset.reset();
     film.title = "Flexible beam on a rotating eccentric cam";
-    film.accuracy_note = "energy ledger closed to 3·10⁻¹⁰";
+    film.warning = "energy ledger closed to 3·10⁻¹⁰";
     const int frames = int(std::lround(how.duration * how.fps));
     for (int k = 0; k < frames; ++k) film.poses.push_back(synthetic_pose(p, how, k / how.fps));
 

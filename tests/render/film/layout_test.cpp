@@ -28,7 +28,7 @@ class AnySize : public testing::TestWithParam<Size> {};
 
 std::vector<Box> parts(const Layout& l) {
     std::vector<Box> out;
-    for (const auto& part : {l.title, l.parameters, l.clock, l.scales, l.note})
+    for (const auto& part : {l.title, l.parameters, l.clock, l.scales, l.warning})
         if (part) out.push_back(*part);
     for (const PanelSlot& p : l.panels) out.push_back(p.box);
     return out;
@@ -52,7 +52,7 @@ TEST_P(AnySize, PlotsStandWithinTheirSlots) {
     const Layout l = layout(GetParam().w, GetParam().h, kAll);
     for (const PanelSlot& c : l.panels) {
         if (c.spec.kind == PanelKind::mechanism) continue;
-        const Box plot = plot_area(c.box, l.unit, l.tick);
+        const Box plot = plot_area(c.box, l.unit, l.letters.words);
         EXPECT_TRUE(c.box.contains(plot, 1));
         EXPECT_GT(plot.h, 40);
         EXPECT_GT(plot.w, 100);
@@ -84,15 +84,21 @@ INSTANTIATE_TEST_SUITE_P(Sizes, AnySize,
                                          Size{1600, 400}, Size{500, 1500}, Size{200, 200}, Size{64, 48}, Size{16, 16},
                                          Size{1, 1}));
 
-TEST(Layout, LettersAtAxesHaveAFiftiethOfTheHeight) {
-    for (const auto& [w, h] : {std::pair{1280, 720}, {1920, 1080}, {2560, 1440}, {3840, 2160}, {854, 480}, {640, 360}})
-        EXPECT_GE(layout(w, h, std::vector<PanelSpec>{}).tick, 0.02 * h) << w << "x" << h;
+TEST(Layout, LettersHaveThreeSizes) {
+    const auto letters = [](int w, int h) { return layout(w, h, std::vector<PanelSpec>{}).letters; };
+    EXPECT_NEAR(letters(1280, 720).title, 34, 1e-9);
+    EXPECT_NEAR(letters(1280, 720).heading, 20, 1e-9);
+    EXPECT_NEAR(letters(1280, 720).words, 16, 1e-9);
+    for (const auto& [w, h] : {std::pair{1920, 1080}, {2560, 1440}, {3840, 2160}, {854, 480}, {640, 360}})
+        EXPECT_GE(letters(w, h).words, 0.022 * h) << w << "x" << h;
     // In square and portrait pictures, of the width.
     for (const auto& [w, h] : {std::pair{1080, 1920}, {1080, 1080}, {720, 1280}})
-        EXPECT_GE(layout(w, h, std::vector<PanelSpec>{}).tick, 0.02 * w) << w << "x" << h;
+        EXPECT_GE(letters(w, h).words, 0.022 * w) << w << "x" << h;
+    EXPECT_NEAR(letters(1080, 1920).words, 1.5 * letters(1280, 720).words, 1e-9);
+    EXPECT_EQ(letters(64, 48).words, kReadable);
     const Layout usual = layout(1920, 1080, std::vector<PanelSpec>{}),
                  large = layout(1920, 1080, std::vector<PanelSpec>{}, 1, {}, {.size = 1.3});
-    EXPECT_NEAR(large.tick, 1.3 * usual.tick, 1e-9);
+    EXPECT_NEAR(large.letters.words, 1.3 * usual.letters.words, 1e-9);
     // Larger labels shrink the plot and do not overlap.
     const Box box{0, 0, 600, 300};
     EXPECT_LT(plot_area(box, 1, 22).w, plot_area(box, 1, 17).w);
@@ -102,7 +108,7 @@ TEST(Layout, LettersAtAxesHaveAFiftiethOfTheHeight) {
 TEST(Layout, FullSizeShowsEverything) {
     const Layout l = layout(1920, 1080, kAll);
     EXPECT_EQ(l.panels.size(), 4U);
-    EXPECT_TRUE(l.title && l.parameters && l.clock && l.scales && l.note);
+    EXPECT_TRUE(l.title && l.parameters && l.clock && l.scales && l.warning);
     EXPECT_DOUBLE_EQ(l.unit, 1);
 }
 
@@ -128,6 +134,13 @@ TEST(Labels, TheUnitOfTimeSuitsTheCharts) {
     EXPECT_STREQ(time_format({0}, 0.02).symbol, "ms");
     EXPECT_STREQ(time_format({0}, 2).symbol, "s");
     EXPECT_STREQ(time_format({0.01}, 0.05).symbol, "ms");
+}
+
+TEST(Labels, AStillShowsTheDigitsOfARoundInstantAndFourOfAnEvents) {
+    EXPECT_EQ(time_format({0.28}, 1).decimals, 2);
+    EXPECT_EQ(time_format({0.2815}, 1).decimals, 4);
+    EXPECT_EQ(time_format({0.281525}, 1).decimals, 6);
+    EXPECT_EQ(time_format({0.28152518347}, 1).decimals, 4);
 }
 
 TEST(Labels, FreezesLeaveTheClockItsThreeDecimals) {
@@ -158,10 +171,10 @@ TEST(Labels, SpeedsOfRotationAreWrittenAsTheUserWroteThem) {
 TEST(Layout, WhatIsNotShownLeavesItsRoomToThePanels) {
     const Layout all = layout(1920, 1080, kAll);
     const Layout none = layout(1920, 1080, kAll, 1, {}, {false, false, false, false, false, false});
-    EXPECT_FALSE(none.title || none.parameters || none.clock || none.scales || none.note);
+    EXPECT_FALSE(none.title || none.parameters || none.clock || none.scales || none.warning);
     EXPECT_GT(none.panels.front().box.h, all.panels.front().box.h + 150);
     const Layout untitled = layout(1920, 1080, kAll, 1, {}, {.title = false});
-    EXPECT_NEAR(untitled.panels.front().box.y, all.panels.front().box.y - 54, 1);
+    EXPECT_NEAR(untitled.panels.front().box.y, all.panels.front().box.y - 64, 1);
     EXPECT_TRUE(layout(1920, 1080, kAll, 1, {}, {.clock = false}).clock);  // its pills belong to the legend
 }
 

@@ -138,10 +138,10 @@ TEST(MechanismLabels, TheArcIsBesideTheHubAndTheCam) {
 TEST(MechanismLegend, NamesAreInOneRowAndCutWhereTheyHaveNoRoom) {
     for (const Comparison how : {Comparison::ghosts, Comparison::panels})
         for (const bool at_length : {false, true})
-            for (const auto& [width, height] : {std::pair{1280, 720}, {640, 360}, {320, 180}}) {
+            for (const auto& [width, height] : {std::pair{1920, 1080}, {640, 360}, {320, 180}}) {
                 FilmSetup setup = bare(test::synthetic_film({.duration = 0.1}));
                 setup.width = width, setup.height = height, setup.comparison = how;
-                setup.label = at_length ? "a cam that stands still at its lowest point" : "0";
+                setup.label = at_length ? "a cam at rest at its lowest point" : "0";
                 for (int i = 1; i < 4; ++i)
                     setup.others.push_back(setup), setup.others.back().label = setup.label + std::to_string(i);
                 if (how == Comparison::panels) setup.layout.reset();
@@ -156,7 +156,7 @@ TEST(MechanismLegend, NamesAreInOneRowAndCutWhereTheyHaveNoRoom) {
                 legend.draw(canvas, home);
                 std::erase_if(texts, [&](const Box& text) { return text.y > slot.box.centre().y; });  // the scale bar
                 EXPECT_EQ(texts.size(), how == Comparison::ghosts ? 4U : 1U) << width;
-                EXPECT_EQ(legend.cuts_names(), at_length && width < 1280) << width;
+                EXPECT_EQ(legend.cuts_names(), at_length && width < 1920) << width;
                 EXPECT_EQ(Film(setup).cut_texts().size(), legend.cuts_names() ? 1U : 0U) << width;
                 for (std::size_t i = 0; i < texts.size(); ++i) {
                     EXPECT_TRUE(slot.box.contains(texts[i], 1)) << width;

@@ -23,8 +23,8 @@ ParameterLine line_in(double width) {
 }
 
 TEST(ParameterLine, KeepsItsDesignWhereThereIsRoom) {
-    const ParameterLine line = line_in(1200);
-    EXPECT_EQ(line.size, 21);
+    const ParameterLine line = line_in(1400);
+    EXPECT_EQ(line.size, 24);
     EXPECT_EQ(line.pieces.size(), kPieces.size());
     EXPECT_TRUE(line.omitted.empty());
 }
@@ -32,7 +32,7 @@ TEST(ParameterLine, KeepsItsDesignWhereThereIsRoom) {
 TEST(ParameterLine, RatherLeavesOutThanWritesTooSmall) {
     Measuring with;
     Layout places;
-    places.unit = 0.5, places.tick = 11;  // of 960×540
+    places.unit = 0.5, places.letters.words = 11;  // of 960×540
     bool omits = false;
     for (double width = 400; width > 40; width -= 10) {
         places.parameters = Box{0, 0, width, 18};
@@ -46,16 +46,16 @@ TEST(ParameterLine, RatherLeavesOutThanWritesTooSmall) {
 }
 
 TEST(ParameterLine, IsSmallerBeforeAnythingIsLeftOut) {
-    double size = 21;
+    double size = 24;
     std::size_t shown = kPieces.size();
     bool smaller = false;
-    for (double width = 1200; width > 20; width -= 10) {
+    for (double width = 1400; width > 20; width -= 10) {
         const ParameterLine line = line_in(width);
         EXPECT_LE(line.pieces.size(), shown) << width;
         EXPECT_EQ(line.pieces.size() + line.omitted.size(), kPieces.size());
         if (line.pieces.size() == kPieces.size()) {
             EXPECT_LE(line.size, size);
-            smaller = smaller || line.size < 21;
+            smaller = smaller || line.size < 24;
             size = line.size;
         }
         for (std::size_t i = 0; i < line.pieces.size(); ++i) EXPECT_EQ(line.pieces[i].markup, kPieces[i]);
@@ -84,15 +84,15 @@ TEST(ParameterLine, ATitleHasTwoSizesThenAnEllipsis) {
     Image image(1, 1);
     const Fonts fonts(true);
     const Canvas canvas(image, fonts);
-    const double natural = canvas.measure("A beam falls", title_style(1)).w;
+    const double natural = canvas.measure("A beam falls", title_style({})).w;
     const auto fitted = [&](const std::string& title, double width) {
-        const FittedText out = fitted_title(canvas, title, {0, 0, width, 54}, 1);
+        const FittedText out = fitted_title(canvas, title, {0, 0, width, 54}, {});
         EXPECT_LE(canvas.measure(out.markup, {.size = out.size, .weight = Weight::semibold}).w, width) << title;
         return out;
     };
     const FittedText whole = fitted("A beam falls", natural + 1), smaller = fitted("A beam falls", 0.8 * natural),
                      cut = fitted("A beam falls", 0.5 * natural);
-    EXPECT_EQ(whole.size, title_style(1).size);
+    EXPECT_EQ(whole.size, title_style({}).size);
     EXPECT_LT(smaller.size, whole.size);
     EXPECT_EQ(smaller.markup, "A beam falls");
     EXPECT_TRUE(cut.cut);

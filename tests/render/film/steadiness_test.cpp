@@ -134,14 +134,14 @@ void static_parts_stay(FilmSetup setup) {
     const Image first = drawn(film, 0);
     for (int k = 1; k < film.frames(); k += 3) {
         const Image image = drawn(film, k);
-        for (const auto& box : {places.title, places.parameters, places.scales, places.note}) {
+        for (const auto& box : {places.title, places.parameters, places.scales, places.warning}) {
             ASSERT_TRUE(box);
             EXPECT_TRUE(same_within(first, image, *box)) << "frame " << k << ", box at " << box->x << ", " << box->y;
         }
         // The axes of values and the starts of headings, left of the plots and above them.
         for (const PanelSlot& slot : places.panels) {
             if (slot.spec.kind != PanelKind::strip) continue;
-            const Box plot = plot_area(slot.box, places.unit, places.tick);
+            const Box plot = plot_area(slot.box, places.unit, places.letters.words);
             EXPECT_TRUE(same_within(first, image, {slot.box.x, slot.box.y, plot.x - 8 - slot.box.x, slot.box.h})) << k;
             EXPECT_TRUE(same_within(first, image, {slot.box.x, slot.box.y, 0.4 * slot.box.w, plot.y - 8 - slot.box.y}))
                 << k;
@@ -153,7 +153,7 @@ TEST(Steadiness, WhatIsStaticHasTheSameBitsInEveryFrame) {
     for (const Theme theme : {Theme::light, Theme::dark, Theme::print}) {
         FilmSetup setup = film_of(Style::flat, {.duration = 1});
         setup.view.theme = theme;
-        setup.accuracy_note = "energy closes";
+        setup.warning = "energy closes";
         static_parts_stay(std::move(setup));
     }
 }
@@ -161,7 +161,7 @@ TEST(Steadiness, WhatIsStaticHasTheSameBitsInEveryFrame) {
 TEST(GlSteadiness, WhatIsStaticHasTheSameBitsInEveryFrame) {
     SKIP_WITHOUT_GL();
     FilmSetup setup = film_of(Style::lit, {.duration = 0.4});
-    setup.accuracy_note = "energy closes";
+    setup.warning = "energy closes";
     static_parts_stay(std::move(setup));
 }
 
@@ -189,8 +189,7 @@ TEST(Steadiness, TheClockDoesNotPushItsNeighbours) {
     Image scratch(16, 16);
     const Fonts fonts(false);
     Canvas canvas(scratch, fonts);
-    const double u = g.layout.unit;
-    const TextStyle big{.size = 46 * u, .weight = Weight::semibold};
+    const TextStyle big{.size = g.layout.letters.title, .weight = Weight::semibold};
     const double head = canvas.measure("$t$\u2009=", big).w, number = canvas.measure("\u200900.000", big).w;
     const Box clock = *g.layout.clock;
     const Image before = drawn(film, 0), after = drawn(film, film.frames() - 1);

@@ -35,7 +35,7 @@ TEST(Plot, HasTheSamePlacesOnAPageAndInAFilm) {
     const Fonts fonts;
     Image image(300, 160);
     Canvas canvas(image, fonts);
-    const PlotStyle page = style_of(*column_named("elsevier")), film = film_style(palette(Theme::light), 1, 17);
+    const PlotStyle page = style_of(*column_named("elsevier")), film = film_style(palette(Theme::light), 1, 21, 17);
     Plot printed(panel, page, "test"), shown(panel, film, "test");
     printed.place(canvas, kBox), shown.place(canvas, kBox);
     for (const double x : {0.0, 0.3, 1.0}) EXPECT_DOUBLE_EQ(printed.along_x(x), shown.along_x(x));
@@ -47,7 +47,7 @@ TEST(Plot, HasTheSamePlacesOnAPageAndInAFilm) {
 TEST(Plot, DrawsThePastToItsInstantAndTheFutureFainter) {
     const Panel panel = rising();
     const Fonts fonts;
-    const PlotStyle film = film_style(palette(Theme::light), 1, 17);
+    const PlotStyle film = film_style(palette(Theme::light), 1, 21, 17);
     for (const bool past : {true, false}) {
         Image image(300, 160);
         {
@@ -71,7 +71,7 @@ TEST(Plot, TicksOfEventsAreBetweenTheAxisAndItsNumbers) {
             Panel panel{.x = {.from = 0, .to = 1, .unit = 1}, .y = {.from = 0, .to = 1}};
             for (int lane = 0; lane < lanes; ++lane)
                 panel.events.push_back({.x = 0.5, .color = rgb(0xFF0000), .lane = lane, .lanes = lanes});
-            const PlotStyle film = film_style(palette(Theme::light), unit, 17 * unit);
+            const PlotStyle film = film_style(palette(Theme::light), unit, 21 * unit, 17 * unit);
             Image image(300, 200);
             double numbers = 0;
             {
@@ -101,7 +101,7 @@ TEST(Chart, ForcesThatAreZeroHaveNoReadingBesideThoseOfOtherMotions) {
     const Fonts fonts;
     const auto readings = [&](std::vector<double> values, bool of_several_motions = true) {
         content.blank_zeros = of_several_motions;
-        const Chart chart(content, {0, 0, 300, 160}, kBox, film_style(palette(Theme::light), 0.5, 9), fonts);
+        const Chart chart(content, {0, 0, 300, 160}, kBox, film_style(palette(Theme::light), 0.5, 10.5, 9), fonts);
         Image image(300, 160);
         Canvas canvas(image, fonts);
         std::vector<Box> texts;
@@ -123,7 +123,7 @@ TEST(Plot, AWindowShowsAnotherIntervalOfTime) {
     const Fonts fonts;
     Image image(300, 160);
     Canvas canvas(image, fonts);
-    const PlotStyle film = film_style(palette(Theme::light), 1, 17);
+    const PlotStyle film = film_style(palette(Theme::light), 1, 21, 17);
     Plot plot(panel, film, "test");
     plot.place(canvas, kBox);
     plot.show_x(canvas, -0.5, 0.5);

@@ -89,7 +89,7 @@ TEST(Ticks, TheNameOfTheAxisLeavesTheLastNumber) {
         std::vector<Box> texts;
         canvas.record = &texts;
         const Box plot{50, 10, width, 50};
-        const figure::PlotStyle style = figure::film_style(p, 1, 17);
+        const figure::PlotStyle style = figure::film_style(p, 1, 21, 17);
         figure::Panel panel{.x = {.label = "$t$ / s", .from = 0, .to = 1, .unit = 1}, .y = {.from = 0, .to = 1}};
         figure::Plot axes(panel, style, "test");
         axes.place(canvas, plot);
