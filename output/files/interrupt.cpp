@@ -1,14 +1,12 @@
 #include "output/files/interrupt.hpp"
 
 #include <signal.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstring>
-#include <initializer_list>
 #include <string>
 #include <string_view>
 
@@ -31,21 +29,18 @@ std::array<Slot, 64> slots;
 std::atomic<int> signals_seen{0};
 static_assert(std::atomic<int>::is_always_lock_free);
 
-constexpr std::string_view kNoMemory =
-    "beamcam: a library ended; perhaps there was not enough memory: choose a smaller size, fewer threads (-j 1), or "
-    "raise "
-    "the limit (ulimit -v)\n";
-constexpr std::string_view kNoThread = "beamcam: a library ended because no thread can be started; ";
+constexpr std::string_view kLibraryEnded =
+    "beamcam: a library ended the program; perhaps there was not enough memory or no thread could be started: choose a "
+    "smaller size, fewer threads (-j 1), or raise the limits (ulimit -v, ulimit -u)\n";
 int exit_code_of_crash = 0;
 std::atomic<pid_t> crashed_thread{0};
 alignas(16) std::array<std::byte, 64 * 1024> handler_stack;
 
 // Removes the temporary files of this process and ends it. Safe in signal handlers.
-[[noreturn]] void end(int exit_code, std::initializer_list<std::string_view> message = {}) {
+[[noreturn]] void end(int exit_code, std::string_view message = {}) {
     for (Slot& slot : slots)
         if (slot.state.load() == slot_used) unlink(slot.path.data());
-    for (const std::string_view part : message)
-        [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, part.data(), part.size());
+    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, message.data(), message.size());
     _exit(exit_code);
 }
 
@@ -65,27 +60,15 @@ extern "C" void on_signal(int) {
 extern "C" void on_crash(int signal_number) {
     pid_t first = 0;
     const pid_t self = gettid();
-    if (crashed_thread.compare_exchange_strong(first, self)) {
-        if (render::memory_was_short()) end(exit_code_of_crash, {kNoMemory});
-        if ((signal_number == SIGTRAP || signal_number == SIGABRT) && render::threads_are_short())
-            end(exit_code_of_crash, {kNoThread, render::kThreadRemedy, "\n"});
-    } else if (first != self) {
-        while (true) pause();
-    }
-    handle(signal_number, SIG_DFL, 0);
-    raise(signal_number);
+    if (crashed_thread.compare_exchange_strong(first, self)) end(exit_code_of_crash, kLibraryEnded);
+    if (first == self) _exit(exit_code_of_crash);  // the handler crashed itself
+    while (true) pause();
 }
 
 bool is_ignored(int signal_number) {
     struct sigaction now = {};
     sigaction(signal_number, nullptr, &now);
     return now.sa_handler == SIG_IGN;
-}
-
-bool memory_is_limited() {
-    rlimit space = {}, data = {};
-    const bool known = getrlimit(RLIMIT_AS, &space) == 0 && getrlimit(RLIMIT_DATA, &data) == 0;
-    return known && (space.rlim_cur != RLIM_INFINITY || data.rlim_cur != RLIM_INFINITY);
 }
 
 }  // namespace
@@ -98,13 +81,11 @@ void install_handlers() {
 
 void install_crash_handlers(int exit_code) {
     exit_code_of_crash = exit_code;
-    render::watch_threads_of_glib();
     const stack_t stack = {handler_stack.data(), 0, handler_stack.size()};
     sigaltstack(&stack, nullptr);
-    constexpr unsigned kFlags = SA_ONSTACK | SA_NODEFER;
-    for (const int signal_number : {SIGTRAP, SIGABRT}) handle(signal_number, on_crash, kFlags);  // raised by libraries
-    if (!memory_is_limited()) return;
-    for (const int signal_number : {SIGSEGV, SIGBUS, SIGILL}) handle(signal_number, on_crash, kFlags);
+    handle(SIGTRAP, on_crash, SA_ONSTACK);  // raised by GLib
+    if (!render::memory_limit()) return;
+    for (const int signal_number : {SIGABRT, SIGSEGV, SIGBUS, SIGILL}) handle(signal_number, on_crash, SA_ONSTACK);
 }
 
 void end_silently(int exit_code) { end(exit_code); }

@@ -11,7 +11,8 @@ namespace beamcam::output {
 // standard_output.cpp handles a pipe that is closed, and a file-size limit gives an error message.
 void install_handlers();
 // GLib, Mesa and LLVM abort, or dereference a null pointer, if an allocation fails or a thread cannot start. The
-// handlers then print a message, remove temporary files and exit with this code. They leave other crashes unchanged.
+// handlers then print a message, remove temporary files and exit with this code: always at GLib's signal, at others
+// only if the process has a limit of memory; otherwise they are crashes.
 void install_crash_handlers(int exit_code);
 
 // Removes the temporary files of this process, and ends it with this code and without a message.

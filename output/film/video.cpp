@@ -64,11 +64,18 @@ struct VideoWriter::Impl {
     std::thread worker;
 
     Impl(const FileTarget& target, const VideoOptions& video_options) : file(target), options(video_options) {
-        open();
         try {
             worker = std::thread([this] { work(); });
         } catch (const std::system_error&) {
-            throw no_encoder_thread(file.target());
+            throw IoError("cannot write " + file.target().string() +
+                          ": no thread can be started for the encoder; close some programs, or raise the limits of "
+                          "processes and memory (ulimit -u, ulimit -v)");
+        }
+        try {
+            open();
+        } catch (...) {
+            stop(true);
+            throw;
         }
     }
 

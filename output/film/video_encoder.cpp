@@ -3,15 +3,8 @@
 #include <algorithm>
 
 #include "output/film/encoder_recipe.hpp"
-#include "render/base/limits.hpp"
 
 namespace beamcam::output {
-
-namespace {
-
-constexpr int kThreadsOfEncoder = 16;  // upper limit: its own, and some for look-ahead and filters
-
-}  // namespace
 
 std::vector<std::string> problems(const VideoOptions& o, std::string_view ending) {
     std::vector<std::string> found;
@@ -29,11 +22,6 @@ std::vector<std::string> problems(const VideoOptions& o, std::string_view ending
     return found;
 }
 
-IoError no_encoder_thread(const std::filesystem::path& film) {
-    return IoError("cannot write " + film.string() + ": no thread can be started for the encoder; " +
-                   render::kThreadRemedy);
-}
-
 OpenedEncoder open_encoder(const VideoOptions& options, const AtomicFile& file) {
     EncoderRecipe recipe = encoder_recipe(options, file.target().extension().string());
     recipe.file = file.temporary_path();
@@ -46,13 +34,10 @@ OpenedEncoder open_encoder(const VideoOptions& options, const AtomicFile& file) 
     try {
         return {video_library().open_encoder(recipe), recipe.layout};
     } catch (const CodecFailure& error) {  // for reasons unknown to format_problem
-        const std::string text = std::string("the encoder of ") + title(options.codec) + " rejects films of " +
-                                 std::to_string(options.width) + "x" + std::to_string(options.height) +
-                                 " pixels here (" + error.what() +
-                                 "); choose a smaller size, or write frames (NAME-####.png)";
-        if (render::memory_was_short()) throw render::PerhapsOutOfMemory(text);  // encoders do not report it
-        if (!render::can_start_threads(kThreadsOfEncoder)) throw no_encoder_thread(file.target());
-        throw UnsupportedOption(text);
+        throw UnsupportedOption(std::string("the encoder of ") + title(options.codec) + " rejects films of " +
+                                std::to_string(options.width) + "x" + std::to_string(options.height) +
+                                " pixels here (" + error.what() +
+                                "); choose a smaller size, or write frames (NAME-####.png)");
     }
 }
 

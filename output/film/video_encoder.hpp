@@ -1,4 +1,4 @@
-// The encoder of a film, opened where there are memory and threads for it.
+// The encoder of a film, opened with the options of the film.
 #pragma once
 
 #include <filesystem>
@@ -16,9 +16,7 @@ struct OpenedEncoder {
     PixelLayout layout;  // of its frames
 };
 
-// Throws IoError, UnsupportedOption, std::bad_alloc.
+// Throws IoError, UnsupportedOption.
 OpenedEncoder open_encoder(const VideoOptions& options, const AtomicFile& file);
-
-IoError no_encoder_thread(const std::filesystem::path& film);
 
 }  // namespace beamcam::output

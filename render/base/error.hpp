@@ -21,9 +21,4 @@ struct PictureError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// A library cannot start the threads that it needs (exit code 6).
-struct ThreadError : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
-
 }  // namespace beamcam::render

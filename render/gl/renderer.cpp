@@ -6,31 +6,27 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <new>
 #include <string_view>
-#include <thread>
 #include <utility>
 
 #include "render/base/error.hpp"
-#include "render/base/limits.hpp"
 #include "render/base/modules.hpp"
 
 namespace beamcam::render {
 namespace {
 
-// The only software driver with OpenGL 3.3; EGL would prefer a graphics card.
-constexpr std::pair<const char*, const char*> kChosen[] = {{"GALLIUM_DRIVER", "llvmpipe"},
-                                                           {"LIBGL_ALWAYS_SOFTWARE", "1"}};
+// The only software driver with OpenGL 3.3; EGL would prefer a graphics card. It draws in the calling thread: frames are
+// drawn side by side anyway, and it would wait forever for threads that cannot start.
+constexpr std::pair<const char*, const char*> kChosen[] = {
+    {"GALLIUM_DRIVER", "llvmpipe"}, {"LIBGL_ALWAYS_SOFTWARE", "1"}, {"LP_NUM_THREADS", "0"}};
 
 // Of several implementations of EGL, Mesa's: that of a graphics card's maker may be asked first.
 constexpr const char* kMesaEgl = "/usr/share/glvnd/egl_vendor.d/50_mesa.json";
 
-// The number of threads (LP_NUM_THREADS) changes only the speed.
 bool is_read_by_mesa(std::string_view name) {
     constexpr std::string_view kPrefixes[] = {"MESA_", "GALLIUM_",  "GALLIVM_", "LP_",    "DRAW_", "ST_",
                                               "NIR_",  "SOFTPIPE_", "TGSI_",    "LIBGL_", "ZINK_", "D3D12_"};
-    return name != "LP_NUM_THREADS" &&
-           std::ranges::any_of(kPrefixes, [&](std::string_view prefix) { return name.starts_with(prefix); });
+    return std::ranges::any_of(kPrefixes, [&](std::string_view prefix) { return name.starts_with(prefix); });
 }
 
 std::vector<std::string> choose_driver() {
@@ -59,16 +55,6 @@ std::vector<std::string> modules() {
     return {one};
 }
 
-// Mesa draws in one thread per processor, up to 32, compiles in a few more, and waits forever for threads that could
-// not start.
-int threads_of_mesa() { return std::min(static_cast<int>(std::thread::hardware_concurrency()), 32) + 4; }
-
-// Whether Mesa and LLVM can be loaded. With them the smallest picture needed an address space of 360 MB in all.
-bool has_memory_for_mesa() {
-    static const bool loads = has_memory(std::size_t{256} << 20);
-    return loads;
-}
-
 }  // namespace
 
 const std::vector<std::string>& ignored_gl_settings() {
@@ -78,9 +64,6 @@ const std::vector<std::string>& ignored_gl_settings() {
 
 std::unique_ptr<BodyRenderer> make_body_renderer(int width, int height) {
     ignored_gl_settings();  // sets the environment before Mesa reads it
-    if (!can_start_threads(threads_of_mesa()))
-        throw ThreadError(fmt::format("no thread can be started for OpenGL; {}", kThreadRemedy));
-    if (!has_memory_for_mesa()) throw std::bad_alloc();
     std::string reasons;
     for (const std::string& name : modules()) {
         try {
@@ -88,7 +71,6 @@ std::unique_ptr<BodyRenderer> make_body_renderer(int width, int height) {
                 static_cast<const BodyRendererLibrary*>(load_module(fmt::format("beamcam_{}.so", name)));
             return library->make_renderer(width, height);
         } catch (const GlError& error) {
-            if (memory_was_short()) throw PerhapsOutOfMemory(error.what());  // Mesa does not report it
             reasons += fmt::format("\n{}", error.what());
         } catch (const ModuleError& error) {
             reasons += fmt::format("\n{}", error.what());

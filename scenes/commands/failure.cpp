@@ -20,7 +20,7 @@ namespace {
 struct Failure {
     int code;
     std::string text;
-    bool may_be_memory = true;  // if memory is short, most errors are consequences
+    bool may_be_memory = true;  // a library may have failed because memory was short
 };
 
 template <class... Errors>
@@ -37,14 +37,14 @@ Failure failure_of(const std::exception& e) {
     }
     if (is_one_of<UsageError, NameClash>(e)) return {kUsage, text, false};
     if (is_one_of<SceneError>(e)) return {kBadScene, text, false};
-    if (is_one_of<UnreadableFile, render::PerhapsOutOfMemory>(e)) return {kInputOutput, text, false};
+    if (is_one_of<UnreadableFile>(e)) return {kInputOutput, text, false};
     if (is_one_of<std::bad_alloc>(e)) return {kInputOutput, render::out_of_memory_message(), false};
     if (is_one_of<sim::Interrupted>(e)) return {kInterrupted, "interrupted; no output is half-written", false};
     if (is_one_of<output::UnsupportedOption, render::PictureError>(e)) return {kBadScene, text};
     if (const auto* solver = dynamic_cast<const sim::SolverError*>(&e))
         return {kSolverFailed, fmt::format("{} (reached {:.9g} s)", text, solver->last_time)};
     if (is_one_of<output::MissingCodec, render::MissingPart>(e)) return {kMissingPart, text};
-    if (is_one_of<output::IoError, render::ThreadError>(e)) return {kInputOutput, text};
+    if (is_one_of<output::IoError>(e)) return {kInputOutput, text};
     if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&e))
         return {kInputOutput, output::io_error(*file).what()};
     return {kBug, fmt::format("internal error: {}; please report it with the scene and the command", text)};
@@ -58,10 +58,7 @@ int report(const std::exception& error) {
         if (!text.empty()) output::print_message("{}{}", text, text.ends_with('\n') ? "" : "\n");
         return code;
     }
-    if (may_be_memory && render::memory_is_short()) {
-        text = render::PerhapsOutOfMemory(text).what();
-        code = kInputOutput;
-    }
+    if (may_be_memory && render::memory_limit()) text += "; perhaps there was " + render::out_of_memory_message();
     output::print_message("beamcam: {}\n", text);
     return code;
 }

@@ -13,7 +13,7 @@ import subprocess
 import sys
 import tempfile
 
-DOCUMENTED = {0, 5, 6}
+DOCUMENTED = {0, 3, 5, 6}
 STEPS = [20, 40, 60, 80, 100, 115, 130, 160, 200, 250, 300, 330, 360, 400, 500, 600, 700, 800, 1000, 1500, 2000]  # [MB]
 LONGEST = 120  # [s]
 NOTES = re.compile(r"\.beamcam\.jsonl")  # the list of files
