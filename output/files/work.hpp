@@ -9,7 +9,7 @@ struct Work {
     long sweep_points = 0;                                                   // computed
     long font_sets = 0, gl_contexts = 0, encoder_modules = 0, encoders = 0;  // loaded or opened
     long frames_drawn = 0, figures_drawn = 0;
-    long mechanisms_lit = 0;   // drawn by OpenGL; a frame whose mechanism is unchanged reuses the last one
+    long bodies_drawn = 0;     // drawn by OpenGL; a frame whose mechanism is unchanged reuses the last one
     long frames_repeated = 0;  // of films: equal to the previous frame, neither drawn nor converted
     long frames_encoded = 0;
     long frames_left = 0;  // of sequences: up to date
@@ -31,7 +31,7 @@ void for_each_count(const Work& w, Visit visit) {
     visit("encoders", w.encoders);
     visit("frames_drawn", w.frames_drawn);
     visit("figures_drawn", w.figures_drawn);
-    visit("mechanisms_lit", w.mechanisms_lit);
+    visit("bodies_drawn", w.bodies_drawn);
     visit("frames_repeated", w.frames_repeated);
     visit("frames_encoded", w.frames_encoded);
     visit("frames_left", w.frames_left);

@@ -10,6 +10,9 @@ namespace beamcam::render {
 
 using sim::Vec2;
 
+// Of length 1; zero stays zero.
+inline Vec2 normalized(Vec2 a) { return norm(a) > 0 ? a * (1 / norm(a)) : Vec2{}; }
+
 struct Box {
     double x = 0, y = 0, w = 0, h = 0;  // [px] or [m]
     constexpr double right() const { return x + w; }
@@ -22,7 +25,6 @@ struct Box {
     constexpr bool overlaps(const Box& o) const {
         return x < o.right() && o.x < right() && y < o.bottom() && o.y < bottom();
     }
-    constexpr Vec2 nearest(Vec2 p) const { return {std::clamp(p.x, x, right()), std::clamp(p.y, y, bottom())}; }
     constexpr Box inset(double d) const { return {x + d, y + d, w - 2 * d, h - 2 * d}; }
     constexpr bool operator==(const Box&) const = default;
 };

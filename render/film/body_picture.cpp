@@ -42,7 +42,7 @@ void BodyPicture::draw(const MechanismScene& s) {
         renderer_->draw(scene, image_);
         drawn_ = std::move(now), seen_ = scene.seen;
         counts.read_back += renderer_->read_back - before;
-        ++counts.mechanisms_lit;
+        ++counts.bodies_drawn;
     }
     DirtyTiles where(s.canvas.image().width, s.canvas.image().height);
     seen_.for_each_run([&](double left, double top, double right, double bottom) {

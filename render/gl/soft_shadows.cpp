@@ -20,24 +20,23 @@ void SoftShadows::rectangle(Vec2 low, Vec2 high, double soft, double opacity, do
 // Widened by the penumbra on all sides.
 void SoftShadows::ribbon(const std::vector<Station>& line, double opacity, double grey) {
     const auto middle = [&](std::size_t i) { return (line[i].low + line[i].high) * 0.5; };
-    const auto unit = [](Vec2 v) { return norm(v) > 0 ? v * (1 / norm(v)) : Vec2{}; };
     const std::size_t last = line.size() - 1;
     double length = 0;
     for (std::size_t i = 0; i < last; ++i) length += norm(middle(i + 1) - middle(i));
     std::vector<std::array<ShadowVertex, 2>> pairs;
     const auto add = [&](const Station& s, Vec2 shift, double along) {
-        const Vec2 up = unit(s.high - s.low) * s.soft;
+        const Vec2 up = normalized(s.high - s.low) * s.soft;
         const double across = norm(s.high - s.low) / s.soft + 1, from = along / s.soft, to = (length - along) / s.soft;
         pairs.push_back({vertex(s.low - up + shift, {-1, across, from, to}, opacity, grey),
                          vertex(s.high + up + shift, {across, -1, from, to}, opacity, grey)});
     };
     double along = 0;
-    add(line[0], unit(middle(0) - middle(1)) * line[0].soft, -line[0].soft);
+    add(line[0], normalized(middle(0) - middle(1)) * line[0].soft, -line[0].soft);
     for (std::size_t i = 0; i <= last; ++i) {
         if (i > 0) along += norm(middle(i) - middle(i - 1));
         add(line[i], {}, along);
     }
-    add(line[last], unit(middle(last) - middle(last - 1)) * line[last].soft, length + line[last].soft);
+    add(line[last], normalized(middle(last) - middle(last - 1)) * line[last].soft, length + line[last].soft);
     for (std::size_t i = 0; i + 1 < pairs.size(); ++i) {
         const auto& [a, b] = pairs[i];
         const auto& [c, d] = pairs[i + 1];

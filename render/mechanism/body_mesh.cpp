@@ -10,14 +10,8 @@ namespace {
 constexpr double kFade = 0.5;   // of an edge, inwards and outwards [px]
 constexpr double kUnder = 1.5;  // of sides below the front [px]
 
-Vec3 unit_of(Vec3 a) {
-    const double n = std::sqrt(dot(a, a));
-    return {a.x / n, a.y / n, a.z / n};
-}
-Vec2 unit_of(Vec2 a) { return norm(a) > 0 ? a * (1 / norm(a)) : Vec2{}; }
-
 // To the right of the way from a to b, where y is up; in the picture, where y is down, to its left.
-Vec2 right_of(Vec2 a, Vec2 b) { return -sim::perp(unit_of(b - a)); }
+Vec2 right_of(Vec2 a, Vec2 b) { return -sim::perp(normalized(b - a)); }
 
 // For each corner of a polygon the step that moves both of its edges outwards by 1. `outwards`: of an edge.
 std::vector<Vec2> miters(const std::vector<Vec2>& polygon) {
@@ -45,12 +39,12 @@ Prism cylinder(Vec2 centre, double radius) {
 
 Prism block(std::span<const Vec2> corners) {
     Prism p{.outline = {corners.begin(), corners.end()}};
-    for (const Vec2 m : miters(p.outline)) p.outward.push_back(unit_of(m));
+    for (const Vec2 m : miters(p.outline)) p.outward.push_back(normalized(m));
     return p;
 }
 
 std::uint32_t BodyMesh::vertex(const Point& p, Vec2 pixel, double cover) {
-    const Vec3 n = unit_of(p.normal);
+    const Vec3 n = normalized(p.normal);
     vertices.push_back({{float(pixel.x), float(pixel.y)},
                         {float(p.at.x), float(p.at.y), float(p.at.z)},
                         {float(n.x), float(n.y), float(n.z)},
@@ -90,7 +84,7 @@ void BodyMesh::side(const std::array<Point, 4>& corner, std::array<bool, 4> fade
     quad(first, last, vertex(corner[3], px[3] + under[1], 1), vertex(corner[0], px[0] + under[0], 1));
     for (std::size_t k = 0; k < 3; ++k) {
         if (!fades[k]) continue;
-        const Vec2 a = px[k], b = px[k + 1], across = sim::perp(unit_of(b - a));
+        const Vec2 a = px[k], b = px[k + 1], across = sim::perp(normalized(b - a));
         const Vec2 out = across * (dot(a - middle, across) > 0 ? 2 * kFade : -2 * kFade);
         quad(vertex(corner[k], a, 1), vertex(corner[k + 1], b, 1), vertex(corner[k + 1], b + out, 0),
              vertex(corner[k], a + out, 0));
@@ -150,15 +144,15 @@ void BodyMesh::add_sides(const Bar& bar) {
         const std::size_t i = outwards ? step : last - 1 - step;
         for (const double way : {-1.0, 1.0}) {
             const std::vector<Vec2>&edge = way < 0 ? bar.low : bar.high, &other = way < 0 ? bar.high : bar.low;
-            const Vec2 out = unit_of(edge[i] - other[i]);
+            const Vec2 out = normalized(edge[i] - other[i]);
             const Vec3 towards = view_.towards_camera({edge[i].x, edge[i].y, bar.half});
             if (dot(out, {towards.x, towards.y}) <= 1e-6) continue;
             const auto point = [&](std::size_t k, double z) {
                 return Point{{edge[k].x, edge[k].y, z}, {out.x, out.y, 0}, bar.colors[k], out};
             };
             const auto under = [&](std::size_t k) {
-                return unit_of(view_.to_pixels({other[k].x, other[k].y, bar.half}) -
-                               view_.to_pixels({edge[k].x, edge[k].y, bar.half})) *
+                return normalized(view_.to_pixels({other[k].x, other[k].y, bar.half}) -
+                                  view_.to_pixels({edge[k].x, edge[k].y, bar.half})) *
                        kUnder;
             };
             side({point(i, bar.half), point(i, -bar.half), point(i + 1, -bar.half), point(i + 1, bar.half)},
@@ -170,7 +164,7 @@ void BodyMesh::add_sides(const Bar& bar) {
 // The end at the tip; the root is in its clamp.
 void BodyMesh::add_end(const Bar& bar) {
     const std::size_t last = bar.low.size() - 1;
-    const Vec2 low = bar.low[last], high = bar.high[last], out = unit_of(low - bar.low[last - 1]);
+    const Vec2 low = bar.low[last], high = bar.high[last], out = normalized(low - bar.low[last - 1]);
     const Vec3 eye = view_.towards_camera({low.x, low.y, bar.half});
     if (dot(out, {eye.x, eye.y}) <= 1e-6) return;
     const auto point = [&](Vec2 p, double z) { return Point{{p.x, p.y, z}, {out.x, out.y, 0}, bar.colors[last], {}}; };
@@ -189,7 +183,7 @@ void BodyMesh::add(const Bar& bar) {
     Ring before;
     // Six points across the front, shifted along the bar, whose normals lean so far forwards along it.
     const auto row = [&](std::size_t i, double along, double lean, double cover) {
-        const Vec2 low = bar.low[i], high = bar.high[i], up = unit_of(high - low), way = -sim::perp(up);
+        const Vec2 low = bar.low[i], high = bar.high[i], up = normalized(high - low), way = -sim::perp(up);
         const double depth = norm(high - low), edge = std::min(chamfer, 0.5 * depth), fade = kFade / view_.zoom;
         Ring now;
         const auto put = [&](double height, double slope, double share) {

@@ -168,12 +168,16 @@ double mark_unit(const sim::Problem& problem, const Camera& camera, double unit)
     return mark_unit(problem.beam.length * camera.scale, unit);
 }
 
+double root_radius(const sim::Problem& problem) {
+    constexpr double kCorner = 1.06;  // distance of a corner from the hub's axis, in its distance from the centre line
+    const double depth = beam_depth(problem.beam), offset = problem.cam ? sim::contact_offset(problem) : depth / 2;
+    return kCorner * std::max(offset, depth - offset);
+}
+
 // Covers the corners of the beam's root, within limits, and stays outside the circle that the disc sweeps.
 double hub_radius(const sim::Problem& problem, const Camera& camera, double unit) {
-    const double offset = problem.cam ? sim::contact_offset(problem) : beam_depth(problem.beam) / 2;
-    const double corner = 1.06 * std::max(offset, beam_depth(problem.beam) - offset) * camera.scale;
     const double marks = mark_unit(problem, camera, unit);
-    double boss = std::clamp(corner, 19 * marks, 48 * marks);
+    double boss = std::clamp(root_radius(problem) * camera.scale, 19 * marks, 48 * marks);
     if (problem.cam) {
         const double free = norm(problem.cam->centre) - cam_reach(problem);
         boss = std::min(boss, 0.7 * std::max(free, 0.0) * camera.scale);

@@ -61,6 +61,8 @@ MechanismShape mechanism_shape(const sim::Problem& problem, const sim::Pose& pos
 // beam, so that they stay in proportion to it, down to the readable minimum.
 double mark_unit(double beam_length, double unit);
 double mark_unit(const sim::Problem& problem, const Camera& camera, double unit);
+// Radius of a hub that covers the corners of the beam's root [m].
+double root_radius(const sim::Problem& problem);
 // Drawn radius of the hub [px]: at least that of a visible boss.
 double hub_radius(const sim::Problem& problem, const Camera& camera, double unit);
 // The fixed bearing below O. `support_reach`: its extent below O [px]. `marks`: mark_unit.

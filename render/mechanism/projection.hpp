@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "render/draw/geometry.hpp"
@@ -16,6 +17,10 @@ struct Vec3 {
     bool operator==(const Vec3&) const = default;
 };
 constexpr double dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vec3 normalized(Vec3 a) {
+    const double n = std::sqrt(dot(a, a));
+    return {a.x / n, a.y / n, a.z / n};
+}
 
 // A camera that looks at the origin, rotated by yaw about the vertical (positive: from the right) and by pitch
 // (positive: from above), both less than a right angle.

@@ -75,7 +75,7 @@ std::vector<Check> examine_machine() {
     examine(checks, "fingerprint", "flat", "see the fonts above", [] { return flat_fingerprint().id(); });
     examine(checks, "fingerprint", "figures", "see the fonts of figures above",
             [] { return figure_fingerprint().id(); });
-    examine(checks, "fingerprint", "lit", "see OpenGL above", [] { return lit_fingerprint().id(); });
+    examine(checks, "fingerprint", "lit", "see OpenGL above", [] { return body_fingerprint().id(); });
     return checks;
 }
 

@@ -2,13 +2,14 @@
 #pragma once
 
 #include <cstddef>
-#include <numbers>
 #include <optional>
 #include <vector>
 
+#include "sim/cam/motion_law.hpp"
+
 namespace beamcam::scenes {
 
-inline constexpr double kFullTurn = 2 * std::numbers::pi;  // [rad]
+using sim::kFullTurn;
 
 // Index of the first row that is farther than half a turn from the row before; nothing: there is none, or the values
 // span more than a turn, so that they do not wrap. NaN: no value.

@@ -32,7 +32,7 @@ static Fingerprint fingerprint_with(render::Typefaces typefaces) {
 Fingerprint flat_fingerprint() { return fingerprint_with(render::Typefaces::screen); }
 Fingerprint figure_fingerprint() { return fingerprint_with(render::Typefaces::print); }
 
-Fingerprint lit_fingerprint() {
+Fingerprint body_fingerprint() {
     Fingerprint found = flat_fingerprint();
     found.parts["OpenGL"] = render::make_body_renderer(16, 16)->name();
     found.parts["processor"] = processor_path();

@@ -17,7 +17,7 @@ Fingerprint flat_fingerprint();
 // The fingerprint of figures, which have other fonts; the Chinese one may be missing.
 Fingerprint figure_fingerprint();
 // The fingerprint of lit views includes the driver, which this loads. Also throws render::GlError.
-Fingerprint lit_fingerprint();
+Fingerprint body_fingerprint();
 
 // The instruction sets by which numerical libraries select code: "x86-64 avx2 fma".
 std::string processor_path();

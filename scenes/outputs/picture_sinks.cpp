@@ -126,7 +126,7 @@ void draw(const PlannedPictures& p, const render::Film& film, PictureSink& sink,
     const render::DrawingCounts& counts = film.counts();
     context.work.font_sets += counts.font_sets;
     context.work.gl_contexts += counts.gl_contexts;
-    context.work.mechanisms_lit += counts.mechanisms_lit;
+    context.work.bodies_drawn += counts.bodies_drawn;
     context.times.read_back += counts.read_back;
 }
 

@@ -27,7 +27,7 @@ Renderer renderer_of(const Baseline& entry) {
     const Picture* picture = entry.picture();
     return !picture                                     ? figure_fingerprint
            : picture->view.style == render::Style::flat ? flat_fingerprint
-                                                        : lit_fingerprint;
+                                                        : body_fingerprint;
 }
 
 class Regression {

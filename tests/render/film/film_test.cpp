@@ -293,7 +293,7 @@ TEST(LitFilm, AMechanismThatStandsStillIsDrawnOnceInEveryStyle) {
         setup.callouts = {{3, 8, "a text that comes and goes", 0}};
         Film film(std::move(setup));
         for (int k = 0; k < film.frames(); ++k) drawn(film, k);
-        EXPECT_EQ(film.counts().mechanisms_lit, 1) << int(style);
+        EXPECT_EQ(film.counts().bodies_drawn, 1) << int(style);
         EXPECT_EQ(film.counts().gl_contexts, 1) << int(style);
     }
 }

@@ -115,7 +115,7 @@ TEST(GlSkipping, AMechanismThatStandsStillIsLitOnce) {
         {"type": "frames", "file": "f-##.png", "size": [320, 180], "fps": 12}]})");
     const Finished run = shell(folder, "$BEAMCAM run -v -j 1 s.json");
     EXPECT_EQ(count(run, "frames_drawn"), 6);  // the clock runs
-    EXPECT_EQ(count(run, "mechanisms_lit"), 1);
+    EXPECT_EQ(count(run, "bodies_drawn"), 1);
     EXPECT_EQ(count(run, "gl_contexts"), 1);
 }
 
