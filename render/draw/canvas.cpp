@@ -26,8 +26,6 @@ void blend(cairo_t* cr, const Image& source, int x, int y, std::span<const Box> 
     cairo_surface_destroy(surface);
 }
 
-constexpr double kHalo = 0.30;  // width relative to the size of the letters
-
 // Rounded outwards to whole pixels within the source.
 Box whole_part(const Image& source, const Box& part) {
     const double x0 = std::clamp(std::floor(part.x), 0.0, double(source.width));
@@ -105,18 +103,9 @@ Box Canvas::text(Vec2 at, std::string_view markup, const TextStyle& style) {
     if (halo_of_all) halo = halo_of_all->faded(style.color.a);
     if (halo && halo->faded(0) == style.color.faded(0))
         halo.reset();  // a halo of the same colour would only thicken the letters
-    const double wide = kHalo * style.size;
-    if (halo) {
-        for (const SetRun& run : label.runs) {
-            PangoLayout* letters = layout_of(*fonts_, run, style);
-            const Vec2 from = at + Vec2{run.x, run.y};
-            cairo_move_to(cr_, from.x, from.y - baseline_of(letters));
-            pango_cairo_layout_path(cr_, letters);
-        }
-        stroke({*halo, wide});
-    }
+    if (halo) draw_halo(label, at, style, *halo);
     draw_label(label, rounded_start(at, label, style), style);
-    mark_painted(ink.inset(halo ? -1 - wide / 2 : -1));
+    mark_painted(ink.inset(halo ? -1 - halo_width(style) / 2 : -1));
     if (record && !label.runs.empty()) record->push_back(ink);
     return {at.x, ink.y, label.width, ink.h};
 }

@@ -1,4 +1,4 @@
-// Layout of a label in one line: positions of the runs of a markup (markup.hpp), and the lines of fractions and roots.
+// Layout of a label in one line: positions of the runs of a markup (markup.hpp).
 // Figures and films use the same rules with different fonts (letters.hpp).
 #pragma once
 
@@ -31,7 +31,6 @@ struct RunExtent {
 };
 struct SetLabel {
     std::vector<SetRun> runs;
-    std::vector<std::vector<Vec2>> rules;  // lines of fractions and roots
     double width = 0, ascent = 0, descent = 0;
     Bounds ink = {};
     double smallest_letter = 1e9;
@@ -39,8 +38,5 @@ struct SetLabel {
 // `extent`: of a run with its place and size.
 SetLabel set_label(const std::vector<Run>& runs, double size, const LetterRules& rules,
                    const std::function<RunExtent(const SetRun& run)>& extent);
-
-inline constexpr double kRuleWidth =
-    0.055;  // width of the lines of fractions and roots, relative to the size of the letters
 
 }  // namespace beamcam::render

@@ -41,6 +41,8 @@ class Parser {
     }
 
     void put(std::string_view c, Run style) {
+        if (style.script == 0 && std::exchange(after_fraction_, false) && begins_factor(next_character(c, 0)))
+            put("·", {});
         if (math_ && !upright_ && is_letter(c)) style.symbol = true;
         if (math_ && c == "-") c = "−";
         if (math_ && c == "'") c = "′";
@@ -51,8 +53,8 @@ class Parser {
     }
 
     static bool is_alike(const Run& a, const Run& b) {
-        return a.over.empty() && std::tie(a.symbol, a.bold, a.script, a.dots, a.color) ==
-                                     std::tie(b.symbol, b.bold, b.script, b.dots, b.color);
+        return std::tie(a.symbol, a.bold, a.script, a.dots, a.color) ==
+               std::tie(b.symbol, b.bold, b.script, b.dots, b.color);
     }
 
     // Parses until the end, or the closing brace of a group.
@@ -77,12 +79,48 @@ class Parser {
         put(c, style);
     }
 
-    std::vector<Run> inside() {
+    static bool begins_factor(std::string_view c) { return is_letter(c) || is_digit(c) || c == "(" || c == "√"; }
+    // Whether a fraction after this text needs a sign of multiplication.
+    bool is_after_factor(int script) const {
+        auto base = runs_.rbegin();
+        while (script == 0 && base != runs_.rend() && base->script != 0) ++base;
+        if (base == runs_.rend() || base->script != script) return false;
+        const char* const end = base->text.data() + base->text.size();
+        const std::string_view last = next_character(g_utf8_prev_char(end), 0);
+        return is_letter(last) || is_digit(last) || last == ")";
+    }
+
+    // A fraction is a/b in one line.
+    void fraction(const Run& style) {
+        if (std::exchange(after_fraction_, false) || is_after_factor(style.script)) put("·", {.script = style.script});
+        factor(style);
+        put("/", style);
+        factor(style);
+        after_fraction_ = true;
+    }
+
+    // Puts a part of a fraction, or what is under a root: in parentheses unless it is one symbol with its scripts, or
+    // one number.
+    void factor(const Run& style) {
         if (++depth_ > kDeepest) fail("fractions and roots can be nested at most six deep");
         std::vector<Run> before = std::exchange(runs_, {});
-        group({});
+        group(style);
+        std::vector<Run> inside = std::exchange(runs_, std::move(before));
         --depth_;
-        return std::exchange(runs_, std::move(before));
+        after_fraction_ = false;
+        int symbols = 0;
+        bool number = true, simple = true;
+        for (const Run& run : inside)
+            each_character(run.text, [&](std::string_view c, std::string_view) {
+                const bool digit = is_digit(c) || c == ".";
+                number = number && digit;
+                simple = simple && (digit || is_letter(c));
+                symbols += run.script == style.script;
+            });
+        const bool alone = simple && (number || symbols <= 1);
+        if (!alone) put("(", style);
+        runs_.insert(runs_.end(), inside.begin(), inside.end());
+        if (!alone) put(")", style);
     }
 
     // Parses a LaTeX command after its backslash; false if there is none.
@@ -97,10 +135,13 @@ class Parser {
         const auto sign = [](char c) { return std::string_view("=<>+-").find(c) != std::string_view::npos || c < 0; };
         if (next == text_.size() || !sign(text_[next])) at_ = next;
         Run changed = style;
-        if (name == "frac" || name == "sqrt") {
-            changed.over = inside();
-            if (name == "frac") changed.under = inside();
-            runs_.push_back(std::move(changed));
+        if (name == "frac") {
+            fraction(style);
+            return true;
+        }
+        if (name == "sqrt") {
+            put("√", style);
+            factor(style);
             return true;
         }
         if (name == "mathrm" || name == "text") {
@@ -121,7 +162,7 @@ class Parser {
             return true;
         }
         for (const SignPair& known : kLatexMath)
-            if (known.second.starts_with('\\') && known.second.substr(1, known.second.find(' ') - 1) == name) {
+            if (known.second.substr(1) == name) {
                 put(known.first, style);
                 return true;
             }
@@ -194,7 +235,7 @@ class Parser {
     std::size_t at_ = 0;
     static constexpr int kDeepest = 6;  // deeper ones are too small to read
     int depth_ = 0;
-    bool math_ = false, upright_ = false;
+    bool math_ = false, upright_ = false, after_fraction_ = false;
     std::vector<Run> runs_;
 };
 

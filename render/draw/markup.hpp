@@ -3,7 +3,7 @@
 //   $θ$ / rad          letters between dollars are italic symbols, digits and signs stay upright
 //   $x_{c}$, m s^{−1}  sub- and superscripts, in braces or a single character; braces needed outside dollars
 //   $\dot{θ}$          a dot above, \ddot two
-//   $\frac{a}{b}$      fraction, \sqrt{a} root; $\omega$ and other LaTeX names of Greek letters and signs
+//   $\frac{a}{b}$      a/b, \sqrt{a} √a; $\omega$ and other LaTeX names of Greek letters and signs
 //   \r{…} \b{…}        upright; bold
 //   \color{#0072b2}{…}  in this colour; outside dollars
 //   \$ \\ \_ \^        are literal characters.
@@ -26,7 +26,6 @@ struct Run {
     int script = 0;                           // −1 below, +1 above
     int dots = 0;                             // above the run
     std::optional<std::uint32_t> color = {};  // 0xrrggbb; none: that of the text
-    std::vector<Run> over = {}, under = {};   // replace the text: a fraction; without `under` a root
     bool operator==(const Run&) const = default;
 };
 

@@ -155,16 +155,12 @@ void Painter::fill_piece(std::span<const Vec2> corners, Color color) {
 }
 
 void Painter::stroke(const Pen& pen) {
-    stroke_path(pen);
-    new_path();
-}
-void Painter::stroke_path(const Pen& pen) {
     mark_path(pen.width / 2);  // joins are round
     set_source(pen.color);
     cairo_set_line_width(cr_, pen.width);
     cairo_set_line_cap(cr_, pen.cap == Cap::round ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
     cairo_set_dash(cr_, pen.dash.data(), static_cast<int>(pen.dash.size()), 0);
-    cairo_stroke_preserve(cr_);
+    cairo_stroke(cr_);
 }
 void Painter::line(Vec2 from, Vec2 to, const Pen& pen) {
     move_to(from);
@@ -188,33 +184,33 @@ void Painter::clip(const Box& b, const std::function<void()>& draw) {
     cairo_restore(cr_);
 }
 
-void Painter::place(const Image& image, const Box& into, bool smooth) {
+void Painter::pixels(const Image& image, const Box& into) {
     cairo_surface_t* const surface = surface_of(image);
     cairo_save(cr_);
-    if (smooth) {
-        cairo_rectangle(cr_, into.x, into.y, into.w, into.h);
-        cairo_clip(cr_);
-    }
     cairo_translate(cr_, into.x, into.y);
     cairo_scale(cr_, into.w / image.width, into.h / image.height);
     cairo_set_source_surface(cr_, surface, 0, 0);
-    cairo_pattern_set_filter(cairo_get_source(cr_), smooth ? CAIRO_FILTER_BEST : CAIRO_FILTER_NEAREST);
-    if (smooth) cairo_pattern_set_extend(cairo_get_source(cr_), CAIRO_EXTEND_PAD);
+    cairo_pattern_set_filter(cairo_get_source(cr_), CAIRO_FILTER_NEAREST);
     cairo_paint(cr_);
     cairo_restore(cr_);
     set_source({});
     cairo_surface_destroy(surface);
     mark_painted(into);
 }
-void Painter::pixels(const Image& image, const Box& into) { place(image, into, false); }
-void Painter::image_fitted(const Image& image, const Box& into) { place(image, into, true); }
+
+double Painter::halo_width(const TextStyle& style) { return 0.30 * style.size; }
+
+void Painter::draw_halo(const SetLabel& label, Vec2 at, const TextStyle& style, Color color) {
+    for (const SetRun& run : label.runs) {
+        PangoLayout* letters = layout_of(*fonts_, run, style);
+        const Vec2 from = at + Vec2{run.x, run.y};
+        cairo_move_to(cr_, from.x, from.y - baseline_of(letters));
+        pango_cairo_layout_path(cr_, letters);
+    }
+    stroke({color, halo_width(style)});
+}
 
 void Painter::draw_label(const SetLabel& label, Vec2 at, const TextStyle& style) {
-    for (std::vector<Vec2> rule : label.rules) {
-        for (Vec2& p : rule) p += at;
-        polyline(rule);
-        stroke({style.color, kRuleWidth * style.size});
-    }
     for (const SetRun& run : label.runs) {
         const Color color = run.run.color ? rgb(*run.run.color) : style.color;
         set_source(color);

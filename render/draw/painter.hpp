@@ -70,8 +70,6 @@ class Painter {
     void clip(const Box& box, const std::function<void()>& draw);
     // Draws the image into the box, each pixel a rectangle.
     void pixels(const Image& image, const Box& into);
-    // Draws the image into the box with smooth scaling.
-    void image_fitted(const Image& image, const Box& into);
 
     // If set, collects the painted tiles (a superset of the changed pixels).
     DirtyTiles* touched = nullptr;
@@ -86,7 +84,9 @@ class Painter {
     void set_source(Color color);
     void mark_painted(const Box& box);  // adds its tiles to `touched`, with a pixel of antialiasing
     void new_path();
-    void stroke_path(const Pen& pen);  // keeps the path
+    // Draws the outline of a label's letters, which keeps them readable over drawings.
+    static double halo_width(const TextStyle& style);
+    void draw_halo(const SetLabel& label, Vec2 at, const TextStyle& style, Color color);
     // Draws a label whose baseline starts at `at`.
     void draw_label(const SetLabel& label, Vec2 at, const TextStyle& style);
     // Draws the letters of a run in the colour that is set.
@@ -98,8 +98,7 @@ class Painter {
 
   private:
     cairo_surface_t* surface_ = nullptr;
-    int exceptions_ = 0;  // number of active exceptions when drawing began
-    void place(const Image& image, const Box& into, bool smooth);
+    int exceptions_ = 0;            // number of active exceptions when drawing began
     void mark_path(double around);  // marks what the path reaches, this far beyond its points
 };
 

@@ -24,7 +24,7 @@ struct TextStyle {
     HAlign align = HAlign::left;
     VAlign valign = VAlign::baseline;
     double max_width = 0;            // pictures only; > 0: truncated with an ellipsis
-    std::optional<Color> halo = {};  // pictures only: outline that keeps the text readable over drawings
+    std::optional<Color> halo = {};  // outline that keeps the text readable over drawings
     double turned = 0;               // pages only: rotation, counter-clockwise [rad]
 };
 

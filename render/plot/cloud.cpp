@@ -114,14 +114,6 @@ void draw_cloud(const Cloud& cloud, const Plot& plot, PageCanvas& sheet) {
     places.size() <= kMostDots ? draw_dots(places, cloud.color, sheet) : draw_density(cloud, plot, sheet);
 }
 
-void cover_cloud(const Cloud& cloud, const Plot& plot, OccupancyGrid& taken) {
-    const std::size_t stride = std::max<std::size_t>(1, cloud.x.size() / kMostDots);
-    for (std::size_t i = 0; i < cloud.x.size(); i += stride) {
-        const Vec2 p = plot.at(cloud.x[i], cloud.y[i]);
-        if (std::isfinite(p.x + p.y)) taken.cover(Box{p.x, p.y, 0, 0}, 1);
-    }
-}
-
 void draw_cells(const Cells& cells, const Plot& plot, PageCanvas& sheet) {
     const std::size_t columns = cells.x.size() - 1, rows = cells.y.size() - 1;
     const auto across = [&](double x) { return plot.along_x(x); };
@@ -144,11 +136,6 @@ void draw_cells(const Cells& cells, const Plot& plot, PageCanvas& sheet) {
                 {low.x, high.y - kCellOverlap, high.x - low.x + kCellOverlap, low.y - high.y + kCellOverlap});
             sheet.fill(cells.colors[row * columns + c]);
         }
-}
-
-void cover_cells(const Cells& cells, const Plot& plot, OccupancyGrid& taken) {
-    const Vec2 low = plot.at(cells.x.front(), cells.y.front()), high = plot.at(cells.x.back(), cells.y.back());
-    taken.cover(Box{low.x, high.y, high.x - low.x, low.y - high.y});
 }
 
 }  // namespace beamcam::render::figure

@@ -69,7 +69,6 @@ class PanelRows {
             rows(text_or(r.label, "line"), panel_.y, {r.vertical ? r.at : NAN}, {r.vertical ? NAN : r.at});
         for (const Mark& m : panel_.marks) rows(text_or(m.label, "mark"), vertical(m.right), {m.x}, {m.y});
         for (const Span& s : panel_.spans) rows(text_or(s.label, "interval"), panel_.y, {s.from, s.to}, {NAN, NAN});
-        for (const Inset& inset : panel_.insets) PanelRows(out_, inset.panel.front(), name_ + " inset").add();
         for (const Shape& s : panel_.shapes) add_shape(s);
     }
 

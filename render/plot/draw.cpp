@@ -15,7 +15,7 @@ namespace {
 constexpr double kSideBySideFrom = 125;                    // [mm]: wider pages have panels side by side
 constexpr double kNarrowestPage = 20, kWidestPage = 2000;  // [mm]
 constexpr double kPageEdge = 1.5;                          // margin of the page [pt]
-constexpr double kSmaller = 0.85, kSmallestOnSlides = 10;  // step of letters that have no room; their least size [pt]
+constexpr double kSmallOnSlides = 14;                      // size of letters where the larger ones have no room [pt]
 
 struct Grid {
     std::size_t rows = 1, columns = 1;
@@ -37,22 +37,15 @@ class FigureLayout {
     // Whether all plots have room; draws nothing.
     bool arrange() {
         make_drawings();
-        // Margins depend on the tick labels, which depend on the plots' sizes: two rounds settle that. A legend without
-        // room inside its plot needs another round, and so do labels that are broken into more lines.
-        for (int round = 0; round < 8; ++round) {
-            measure(round > 3);  // later margins only grow, else lines could alternate
-            bool settled = round > 0;
+        // Margins depend on numbers, lines of labels and rows of legends, which depend on the plots' sizes.
+        constexpr int kRounds = 3;
+        for (int round = 0; round < kRounds; ++round) {
+            measure(round + 1 == kRounds);  // the last margins only grow, else lines could alternate
             for (std::size_t i = 0; i < drawings_.size(); ++i) {
                 if (!drawings_[i]) continue;
                 if (lacks_room(i)) return false;
-                if (!drawings_[i]->place(plot(i))) settled = false;
-                // At another height a label may have one more line.
-                const Margins m = drawings_[i]->margins();
-                const double top = margins_[i / grid_.columns].top;
-                if (std::max({m.left - left_, m.right - right_, m.top - top}) > 0.5 * page_.style.letters)
-                    settled = false;
+                drawings_[i]->place(plot(i));
             }
-            if (settled) break;
         }
         return true;
     }
@@ -180,11 +173,13 @@ Page page_of(const Figure& figure, const Column& column, std::optional<double> w
 
 void draw(const Figure& figure, const Page& page, PageCanvas& sheet) {
     if (figure.panels.empty()) throw PictureError(fmt::format("figure {}: nothing to draw", figure.name));
-    // The large letters of a slide become smaller until all panels have room.
-    for (Page fitted = page;; fitted.style = scaled(fitted.style, kSmaller)) {
+    // The large letters of a slide have a second size.
+    Page fitted = page;
+    for (const double letters : {page.style.letters, std::min(page.style.letters, kSmallOnSlides)}) {
+        fitted.style = scaled(page.style, letters / page.style.letters);
         FigureLayout layout(figure, fitted, sheet);
         if (layout.arrange()) return layout.draw();
-        if (kSmaller * fitted.style.letters < kSmallestOnSlides)
+        if (letters <= kSmallOnSlides)
             throw PictureError(
                 fmt::format("figure {}: a page of {:.4g} × {:.4g} mm leaves no room for the plot beside "
                             "its labels; make it {}",
@@ -202,7 +197,6 @@ static std::string words_of(const Panel& p) {
     for (const Swatch& w : p.swatches) all += w.label;
     for (const Mark& m : p.marks) all += m.label;
     for (const Shape& s : p.shapes) all += s.markup;
-    for (const Inset& inset : p.insets) all += words_of(inset.panel.front());
     return all;
 }
 bool needs_chinese(const Figure& figure) {

@@ -5,7 +5,6 @@
 #include <set>
 #include <utility>
 
-#include "render/plot/narrow.hpp"
 #include "render/plot/reduce.hpp"
 
 namespace beamcam::render::figure {
@@ -156,7 +155,7 @@ void DrawnCurve::draw_tones(const PlotStyle& style, PageCanvas& on) const {
 void DrawnCurve::draw_line(const PlotStyle& style, Painter& on) const {
     const Series& s = *series_;
     Pen pen = curve_pen(s, style);
-    stroke_curve(on, s.every_point ? points_ : line_, pen);
+    on.curve(s.every_point ? points_ : line_, pen);
     pen.dash.clear();
     for (const std::vector<Vec2>& band : bands_) {
         on.polyline(band);

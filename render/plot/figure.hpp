@@ -95,7 +95,6 @@ struct ColorBar {
     std::string label = {};
     Scale scale = Scale::linear;
     std::optional<double> from = {}, to = {};
-    bool hidden = false;     // of an inset: the panel around it shows the bar
     bool is_signed = false;  // signed_color, from −to to `to`; else map_color
     bool root = false;       // colours follow the square root of the share, so that small values differ too
 };
@@ -118,23 +117,7 @@ struct Shape {
     Vec2 shift = {};                // of the label, in sizes of its letters, y up
     HAlign align = HAlign::centre;
     VAlign valign = VAlign::middle;
-    bool small = false;    // label
-    bool if_room = false;  // label: all of these are left out if one would touch another label
-};
-
-// Labels at the curves if they have room, else a box; a box, in the plot if it has room, else above; a box above the
-// plot; none.
-enum class Legend { direct, box, above, none };
-
-struct Panel;
-struct Inset {
-    std::vector<Panel> panel;            // one; a vector because a panel may hold insets
-    double width = 0.42, height = 0.42;  // of the parent's plot
-    // The part of the parent that is enlarged: gets a frame, and lines to the inset.
-    struct Source {
-        double x_from = 0, x_to = 0, y_from = 0, y_to = 0;
-    };
-    std::optional<Source> source = {};
+    bool small = false;  // label
 };
 
 struct Panel {
@@ -153,11 +136,10 @@ struct Panel {
     std::vector<Rule> rules = {};
     std::vector<Mark> marks = {};
     std::optional<ColorBar> color_bar = {};
-    std::vector<Inset> insets = {};
     std::vector<Shape> shapes = {};  // not empty: no axes
-    Legend legend = Legend::direct;
-    double share = 1;       // of the height, among stacked panels
-    std::string name = {};  // for the data and messages: "theta"
+    bool legend = true;              // above the plot: the labels of series, bands, clouds and swatches
+    double share = 1;                // of the height, among stacked panels
+    std::string name = {};           // for the data and messages: "theta"
 };
 
 struct Figure {

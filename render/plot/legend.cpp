@@ -1,73 +1,45 @@
 #include "render/plot/legend.hpp"
 
 #include <algorithm>
-#include <utility>
+
+#include "render/plot/drawn_curve.hpp"
 
 namespace beamcam::render::figure {
 namespace {
-constexpr double kSampleLength = 2.6, kRow = 1.35;  // length of a line, height of an entry, in letters
+// In sizes of letters: the length of a line, the height of a row, and the space between entries.
+constexpr double kSampleLength = 2.6, kRow = 1.35, kBetween = 0.75;
 }  // namespace
 
-LegendBox::LegendBox(const Panel& panel, const PlotStyle& style, PageCanvas& sheet)
-    : panel_(panel), style_(style), sheet_(sheet) {
+LegendAbove::LegendAbove(const Panel& panel, const PlotStyle& style, PageCanvas& sheet) : style_(style), sheet_(sheet) {
     const auto add = [&](const std::string& label, const Series* series, Color color, bool dots) {
-        if (!label.empty()) entries_.push_back({label, series, color, dots});
+        if (label.empty()) return;
+        const double width = kSampleLength * style.letters + style.gap + sheet.measure(label, style.words()).w;
+        entries_.push_back({label, series, color, dots, width, {}});
+        widest_ = std::max(widest_, width);
     };
+    if (!panel.legend) return;
     for (const Series& s : panel.series) add(s.label, &s, {}, false);
     for (const Band& b : panel.bands) add(b.label, nullptr, pale(look(b.look).color, 0.72), false);
     for (const Cloud& c : panel.clouds) add(c.label, nullptr, c.color, true);
     for (const Swatch& w : panel.swatches) add(w.label, nullptr, w.color, false);
 }
 
-Box LegendBox::size(double width) {
-    const double apart = 2 * style_.gap, row = kRow * style_.letters;
-    const auto count = static_cast<int>(entries_.size());
-    std::vector<double> widths;
-    for (const Entry& entry : entries_)
-        widths.push_back(kSampleLength * style_.letters + style_.gap + sheet_.measure(entry.label, style_.words()).w);
-    entry_ = std::ranges::max(widths);
-    // Inside the plot one column; above it as many columns as the width holds.
-    const int columns = above_ ? std::clamp(static_cast<int>((width + apart) / (entry_ + apart)), 1, count) : 1;
-    places_.clear();
-    for (int k = 0; k < count; ++k) {
-        const int line = k / columns;
-        places_.push_back({k % columns * (entry_ + apart), row * line});
-    }
-    const Box box{0, 0, columns * (entry_ + apart) - apart, places_.back().y + row};
-    if (!above_) return box;
-    // Without columns, if that saves a line.
-    std::vector<Vec2> packed;
+void LegendAbove::fit(double width) {
     Vec2 next;
-    for (const double wide : widths) {
-        if (next.x > 0 && next.x + wide > width) next = {0, next.y + row};
-        packed.push_back(next);
-        next.x += wide + apart;
+    for (Entry& entry : entries_) {
+        if (next.x > 0 && next.x + entry.width > width) next = {0, next.y + kRow * style_.letters};
+        entry.at = next;
+        next.x += entry.width + kBetween * style_.letters;
     }
-    if (packed.back().y >= places_.back().y) return box;
-    places_ = std::move(packed);
-    return {0, 0, width, places_.back().y + row};
 }
 
-bool LegendBox::place_inside(OccupancyGrid& taken) {
-    const Box& plot = taken.area();
-    const Box box = size(plot.w);
-    const Place place = best_place(taken, box.w, box.h, 1.6 * style_.gap);
-    if (panel_.legend != Legend::above && place.cost <= kFewCells && box.w < plot.w && box.h < plot.h) {
-        box_ = place.box;
-        taken.cover(place.box);
-        return true;
-    }
-    above_ = true;
-    height_ = size(plot.w).h;
-    return false;
+double LegendAbove::height() const {
+    return entries_.empty() ? 0 : entries_.back().at.y + kRow * style_.letters + style_.gap;
 }
 
-bool LegendBox::place_above(double width) {
-    box_ = size(width);
-    return box_->h <= std::exchange(height_, box_->h) + 0.01;
-}
+double LegendAbove::baseline() const { return 0.5 * (kRow * style_.letters + sheet_.cap_height(style_.letters)); }
 
-void LegendBox::draw_sample(const Entry& entry, Vec2 left, double width) const {
+void LegendAbove::draw_sample(const Entry& entry, Vec2 left, double width) const {
     if (entry.series) {
         const Series& s = *entry.series;
         const Pen pen = curve_pen(s, style_);
@@ -86,15 +58,14 @@ void LegendBox::draw_sample(const Entry& entry, Vec2 left, double width) const {
     }
 }
 
-void LegendBox::draw() const {
-    if (!box_) return;
-    const double row = kRow * style_.letters, sample = kSampleLength * style_.letters;
+void LegendAbove::draw(Vec2 top_left) const {
+    const double sample = kSampleLength * style_.letters;
     TextStyle l = style_.words();
     l.valign = VAlign::middle;
-    for (std::size_t k = 0; k < entries_.size(); ++k) {
-        const Vec2 at = Vec2{box_->x, box_->y + 0.5 * row} + places_[k];
-        draw_sample(entries_[k], at, sample);
-        sheet_.text(at + Vec2{sample + style_.gap, 0}, entries_[k].label, l);
+    for (const Entry& entry : entries_) {
+        const Vec2 at = top_left + entry.at + Vec2{0, 0.5 * kRow * style_.letters};
+        draw_sample(entry, at, sample);
+        sheet_.text(at + Vec2{sample + style_.gap, 0}, entry.label, l);
     }
 }
 

@@ -121,6 +121,7 @@ Box PageCanvas::text(Vec2 at, std::string_view markup, const TextStyle& style) {
     cairo_move_to(cr_, dx, dy);
     cairo_get_current_point(cr_, &dx, &dy);
     new_path();
+    if (style.halo) draw_halo(label, {dx, dy}, style, *style.halo);
     draw_label(label, {dx, dy}, style);
     cairo_restore(cr_);
 

@@ -98,8 +98,7 @@ Margins PanelNames::room_around(const Plot& plot) const {
         m.top += style_.numbers + style_.gap;
     m.right = std::max(1.3 * style_.numbers, beyond_right_);
     if (plot.right()) m.right = widest_right_ + style_.gap + letter + 1.5 * style_.gap + right_.beside;
-    if (plot.bar() && !panel_.color_bar->hidden)
-        m.right = 2.2 * style_.gap + 0.9 * letter + style_.gap + widest_bar_ + letter + 1.6 * style_.gap;
+    if (plot.bar()) m.right = 2.2 * style_.gap + 0.9 * letter + style_.gap + widest_bar_ + letter + 1.6 * style_.gap;
     return m;
 }
 
@@ -110,7 +109,7 @@ void PanelNames::draw(const Plot& plot, double top, bool legend_above) const {
     draw_labels_beside(plot);
     draw_common_factors(plot);
     draw_titles(plot, top, plot.y().common().empty() && !legend_above);
-    if (plot.bar() && !panel_.color_bar->hidden) draw_color_bar(plot);
+    if (plot.bar()) draw_color_bar(plot);
 }
 
 void PanelNames::draw_label_below(const Plot& plot) const {
@@ -156,16 +155,24 @@ void PanelNames::draw_common_factors(const Plot& plot) const {
     sheet_.text({plot.box().right(), y}, plot.right()->common(), common);
 }
 
+TextStyle PanelNames::letter_style() const {
+    TextStyle style = style_.words();
+    style.weight = Weight::bold;
+    return style;
+}
+
+double PanelNames::letter_width() const {
+    if (panel_.letter.empty()) return 0;
+    return sheet_.measure("(" + panel_.letter + ")", letter_style()).w + 0.5 * style_.letters;
+}
+
 void PanelNames::draw_titles(const Plot& plot, double top, bool alone) const {
     const double step = kLineStep * style_.letters;
     double y = top, x = plot.box().x;
     if (alone) y = plot.box().y - style_.gap - step * std::max(0.0, static_cast<double>(title_.size()) - 1);
-    TextStyle title = style_.words();
-    if (!panel_.letter.empty()) {
-        title.weight = Weight::bold;
-        x += sheet_.text({x, y}, "(" + panel_.letter + ")", title).w + 0.5 * style_.letters;
-        title.weight = Weight::regular;
-    }
+    const TextStyle title = style_.words();
+    if (!panel_.letter.empty()) sheet_.text({x, y}, "(" + panel_.letter + ")", letter_style());
+    x += letter_width();
     for (const std::string& line : title_) sheet_.text({x, y}, line, title), y += step;
 }
 

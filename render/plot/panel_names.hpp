@@ -11,9 +11,6 @@ namespace beamcam::render::figure {
 struct Margins {
     double left = 0, right = 0, top = 0, bottom = 0;  // [pt]
 };
-inline Box without(const Box& outer, const Margins& m) {
-    return {outer.x + m.left, outer.y + m.top, outer.w - m.left - m.right, outer.h - m.top - m.bottom};
-}
 
 class PanelNames {
   public:
@@ -25,6 +22,7 @@ class PanelNames {
     void fit(const Plot& plot, double width, double height);
     Margins margins() const { return margins_; }             // room that numbers, texts and colour bar need
     double titles_height() const { return titles_height_; }  // of letter and title above the plot; 0: none
+    double letter_width() const;                             // with the space behind it; 0: none
     // `top`: baseline of letter and title; they are directly above the plot if nothing else is.
     void draw(const Plot& plot, double top, bool legend_above) const;
 
@@ -34,6 +32,7 @@ class PanelNames {
         double beside = 0;  // height of the lines beside the first
     };
     Label broken(std::string label, double room) const;
+    TextStyle letter_style() const;
     Margins room_around(const Plot& plot) const;
     double widest(const AxisMap& axis) const;  // of its numbers
     void draw_label_below(const Plot& plot) const;

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <utility>
 
-#include "render/plot/narrow.hpp"
 #include "render/plot/plot.hpp"
 #include "render/plot/reduce.hpp"
 
@@ -85,7 +84,7 @@ void Plot::draw_curve(Painter& on, const Series& s, const Interval& part) const 
         const Interval within{std::max(from, part.from), std::min(to, part.to), part.past};
         if (!(within.from < within.to)) return;
         pen.color = color;
-        stroke_curve(on, points(s.x, s.y, false, within), pen);
+        on.curve(points(s.x, s.y, false, within), pen);
     };
     if (!part.past) return piece(part.from, part.to, s.faint);
     // Pale pieces first: a piece begins at the row before its interval, which the strong pieces cover.

@@ -54,20 +54,6 @@ Vec2 beyond(const std::vector<Shape>& shapes, const PlotStyle& style, PageCanvas
     return out;
 }
 
-// Whether the labels that are drawn if there is room touch none before them.
-bool have_room(const std::vector<Shape>& shapes, const PlotStyle& style, const PageCanvas& sheet,
-               const Camera& camera) {
-    const double gap = 0.15 * style.letters;
-    std::vector<Box> labels;
-    for (const Shape& s : shapes) {
-        if (s.kind != Shape::Kind::label) continue;
-        const Box own = label_box(s, style, sheet, camera), around = own.inset(-gap);
-        if (s.if_room && std::ranges::any_of(labels, [&](const Box& b) { return b.overlaps(around); })) return false;
-        labels.push_back(own);
-    }
-    return true;
-}
-
 void draw_one(const Shape& s, const PlotStyle& style, PageCanvas& sheet, const Camera& camera) {
     const double width = s.width > 0 ? s.width : style.frame;
     const Pen pen{s.color, width, dashes(s.dash, width), Cap::butt};
@@ -104,7 +90,8 @@ void draw_one(const Shape& s, const PlotStyle& style, PageCanvas& sheet, const C
         case Shape::Kind::arrow:
             return sheet.arrow(points.at(0), points.at(1), pen, head);
         case Shape::Kind::label: {
-            const TextStyle l = lettering_of(s, style);
+            TextStyle l = lettering_of(s, style);
+            l.halo = kWhite;
             sheet.text(place_of(s, l, camera), s.markup, l);
             return;
         }
@@ -126,9 +113,7 @@ void draw_shapes(const Panel& panel, const PlotStyle& style, PageCanvas& sheet, 
         room = {room.x + left, room.y, room.w - left - right, room.h};
         camera = fit(world, room.inset(margin));
     }
-    const bool all = have_room(panel.shapes, style, sheet, camera);
-    for (const Shape& s : panel.shapes)
-        if (all || !s.if_room) draw_one(s, style, sheet, camera);
+    for (const Shape& s : panel.shapes) draw_one(s, style, sheet, camera);
 }
 
 }  // namespace beamcam::render::figure

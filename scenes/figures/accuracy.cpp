@@ -43,7 +43,6 @@ Panel work_precision(const sim::Accuracy& a, Lang lang) {
                 .y = {.label = error_label(a, lang), .scale = Scale::logarithmic},
                 .rules = {{.at = a.reference_error, .label = phrase(lang, "reference")},
                           {.at = a.target, .label = phrase(lang, "target")}},
-                .legend = Legend::box,
                 .name = "work-precision"};
     std::vector<sim::Method> methods;
     for (const sim::WorkRow& row : a.work)
@@ -56,7 +55,6 @@ Panel mode_counts(const sim::Accuracy& a, Lang lang) {
     Panel panel{.x = {.label = "$N$", .counts = true},
                 .y = {.label = error_label(a, lang), .scale = Scale::logarithmic},
                 .right = Axis{.label = phrase(lang, kTime), .scale = Scale::logarithmic},
-                .legend = Legend::box,
                 .name = "modes"};
     Series error{.label = phrase(lang, "error, against $N$ = {}", a.most_modes), .every_point = true},
         time{.label = phrase(lang, "run time (right)"), .look = 1, .every_point = true, .right = true};

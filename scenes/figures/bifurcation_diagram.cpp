@@ -54,7 +54,6 @@ figure::Panel class_strip(const SweptPoints& points) {
     }
     figure::Panel strip{.y = {.from = 0, .to = static_cast<double>(lanes), .numbered = false, .ticked = false},
                         .cells = {std::move(cells)},
-                        .legend = figure::Legend::box,
                         .share = 0.16,
                         .name = "class"};
     for (const auto& [kind, any] : shown) strip.swatches.push_back({class_label(kind, points.lang), color_of(kind)});
@@ -103,7 +102,7 @@ figure::Panel exponents_panel(std::vector<figure::Cloud> clouds) {
     figure::Panel panel{.y = {.label = "$λ_1$ / s^{−1}"},
                         .clouds = std::move(clouds),
                         .rules = {{.at = 0}},
-                        .legend = figure::Legend::none,
+                        .legend = false,
                         .share = 0.35,
                         .name = "exponent"};
     const double margin = kMargin * (high - low);
@@ -124,7 +123,6 @@ figure::Panel samples_panel(const SweptPoints& points, std::size_t column, std::
                             const std::vector<figure::Swatch>& classes) {
     figure::Panel panel{.y = {.label = column_label(points, column)},
                         .clouds = std::move(clouds),
-                        .legend = figure::Legend::box,
                         .name = points.data.columns[column].name};
     if (!all_empty(panel.clouds)) {
         if (panel.clouds.size() > 1) panel.clouds.push_back(coinciding(panel.clouds, points.lang));
@@ -134,7 +132,7 @@ figure::Panel samples_panel(const SweptPoints& points, std::size_t column, std::
     for (const figure::Swatch& each : classes) names.push_back(each.label);
     panel.title = phrase(points.lang, "No samples to draw; motions: {}", fmt::format("{}", fmt::join(names, ", ")));
     panel.y = {.from = 0, .to = 1, .numbered = false, .ticked = false};  // numbers would be invented
-    panel.legend = figure::Legend::none;
+    panel.legend = false;
     panel.share = 0.15;
     return panel;
 }

@@ -144,7 +144,6 @@ Figure branches_figure(const output::BranchTable& table, const SweptImpacts& swe
                       .to = shown.factor * table.to,
                       .tight = true},
                 .y = {.label = axis_label(phrase(lang, "approach speed"), "m/s")},
-                .legend = render::figure::Legend::box,
                 .name = "branches"};
     const bool with_sweep = !swept.parameter.empty();
     if (with_sweep) panel.clouds.push_back({phrase(lang, "sweep"), {}, swept.approach, render::rgb(kSweptColor)});

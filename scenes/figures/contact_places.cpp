@@ -47,12 +47,12 @@ Panel places_panel(const Places& places, double end, std::string y_label, std::s
             .y = {.label = std::move(y_label)},
             .series = {places.points},
             .color_bar = render::figure::ColorBar{.label = std::move(bar_label), .from = 0, .to = places.strongest},
-            .legend = Legend::none};
+            .legend = false};
 }
 
 // The first collision alone: in the whole plot its place moves by less than a mark.
-std::optional<render::figure::Inset> first_collision(const sim::Collision& c, double end, const sim::Table& t,
-                                                     double factor, const Panel& whole, Lang lang) {
+std::optional<Panel> first_collision(const sim::Collision& c, double end, const sim::Table& t, double factor,
+                                     const Panel& whole, Lang lang) {
     constexpr double kBrief = 0.1;  // of the time shown: a longer one is seen in the whole
     const double last = c.t_end.value_or(end);
     if (last - c.t_start > kBrief * end) return std::nullopt;
@@ -76,9 +76,9 @@ std::optional<render::figure::Inset> first_collision(const sim::Collision& c, do
                 .x = {.label = axis_label("($t$ − $t_{1}$)", duration.unit)},
                 .series = {std::move(s)},
                 .color_bar = whole.color_bar,
-                .legend = Legend::none};
-    panel.color_bar->hidden = true;
-    return render::figure::Inset{.panel = {std::move(panel)}, .width = 0.36, .height = 0.29};
+                .legend = false};
+    panel.y.label = whole.y.label;
+    return panel;
 }
 
 // Impulsive contact: a point for each impact, coloured by its impulse.
@@ -122,9 +122,10 @@ Figure forceful_places(const Subject& subject, const sim::Result& result, const 
                               places_panel(on_cam, end, disc ? "$s_{\\r{c}}$/$R$ / °" : "$s_{\\r{c}}$ / m", "$F$ / N")};
     panels[0].title = phrase(lang, "on the beam"), panels[1].title = phrase(lang, "on the cam");
     if (const sim::Collision* first = collision_of(problem, result, 1))
-        if (auto inset = first_collision(*first, end, t, on_beam.measure.factor, panels[0], lang))
-            panels[0].insets = {std::move(*inset)};
-    return {.panels = lettered(std::move(panels)), .stack = true, .share_x = true, .aspect = 1.1};
+        if (auto alone = first_collision(*first, end, t, on_beam.measure.factor, panels[0], lang))
+            panels.push_back(std::move(*alone));
+    const double aspect = panels.size() > 2 ? 1.7 : 1.15;
+    return {.panels = lettered(std::move(panels)), .stack = true, .aspect = aspect};
 }
 
 FigureDrawing prepare_places(const Scene& scene, const FigureOutput&, MotionRequests& requests) {

@@ -81,12 +81,8 @@ Figure deflection_figure(const Subject& subject, const MotionResults&) {
     const bool several = curves.size() > 1;
     Panel shape{.x = {.label = phrase(lang, "horizontal distance $x$ from $O$ / m"), .tight = true},
                 .y = {.label = "$v$ / mm"},
-                .rules = {{.at = 0}},
-                .legend = Legend::box},
-        slope{.x = shape.x,
-              .y = {.label = "d$v$/d$s$ / 10^{−3}"},
-              .rules = {{.at = 0}},
-              .legend = several ? Legend::box : Legend::none};
+                .rules = {{.at = 0}}},
+        slope{.x = shape.x, .y = {.label = "d$v$/d$s$ / 10^{−3}"}, .rules = {{.at = 0}}, .legend = several};
     for (std::size_t i = 0; i < kSupports.size(); ++i) {
         const double support = kSupports[i] * reach;
         for (const Curves& c : curves) {

@@ -149,18 +149,14 @@ Panel distance_panel(const Trial& trial) {
     const Measure time = measure_of("s", touch), length = measure_of("m", farthest);
     Panel panel{.x = {.label = axis_label("$t$", time.unit), .tight = true},
                 .y = {.label = axis_label("$D$′", length.unit)},
-                .rules = {{.at = 0}},
-                .legend = Legend::box};
-    double highest = 0;
+                .rules = {{.at = 0}}};
     for (std::size_t k = 0; k < f.x.size(); k += kRefined) {
         Series& s = panel.series.emplace_back();
         s.label = "$x$ = " + length_text(f.x[k]);
         s.look = static_cast<int>(k) / kRefined;
         for (std::size_t i = 0; i < f.t.size(); ++i)
             if (is_shown(f.t[i])) s.add(f.t[i] * time.factor, f.distance[k][i] * length.factor);
-        for (const double v : s.y) highest = std::max(highest, v);
     }
-    panel.y.to = 2.15 * highest;  // room above the falling curves for the inset
     return panel;
 }
 
@@ -181,17 +177,17 @@ Panel arrivals_panel(const Trial& trial, const sim::Result& strikes, Lang lang) 
         if (k % kRefined == 0) coarse.add(x, t);
         if (k + kRefined >= trial.first_trial && k <= trial.first_trial + kRefined) refined.add(x, t);
     }
-    Panel inset{.x = {.label = "$x$ / m"},
+    Panel panel{.x = {.label = "$x$ / m"},
                 .y = {.label = axis_label("$t_{0}$", time.unit)},
                 .series = {refined, coarse},
-                .legend = Legend::none};
-    widen(inset.x, coarse.x), widen(inset.y, coarse.y);
+                .legend = false};
+    widen(panel.x, coarse.x), widen(panel.y, coarse.y);
     if (!strikes.impacts.empty())
-        inset.marks.push_back({.x = strikes.impacts.front().x,
+        panel.marks.push_back({.x = strikes.impacts.front().x,
                                .y = strikes.impacts.front().t_start * time.factor,
                                .label = phrase(lang, "located"),
                                .look = 1});
-    return inset;
+    return panel;
 }
 
 FigureDrawing prepare_distance(const Scene& scene, const FigureOutput&, MotionRequests& requests) {
@@ -206,9 +202,8 @@ FigureDrawing prepare_distance(const Scene& scene, const FigureOutput&, MotionRe
         const auto& [problem, units, lang, end] = subject;
         const sim::Result &falls = *results[fall], &strikes = *results[touching];
         const Trial trial = try_points(falls, searched, where, instants(all), problem);
-        Panel panel = distance_panel(trial);
-        panel.insets.push_back({.panel = {arrivals_panel(trial, strikes, lang)}, .width = 0.42, .height = 0.42});
-        Figure figure{.panels = {std::move(panel)}, .aspect = 0.76};
+        Figure figure{.panels = lettered({distance_panel(trial), arrivals_panel(trial, strikes, lang)}),
+                      .aspect = 1.25};
         add_caption(figure, {{&problem, &strikes}});
         return figure;
     };
@@ -228,7 +223,7 @@ std::optional<std::string> needs_tangent(const Scene& scene) {
 
 extern const FigureType kDistance{
     "distance",
-    "Distance of points of the freely falling beam from the cam near the first touch; inset: when it is zero, by "
+    "Distance of points of the freely falling beam from the cam near the first touch (a), and when it is zero (b), by "
     "trial points, their refinement and the located touch",
     needs_tangent, prepare_distance};
 

@@ -22,7 +22,6 @@ namespace beamcam::scenes {
 
 // Parts of figures, by their short names.
 using render::figure::Figure;
-using render::figure::Legend;
 using render::figure::Panel;
 using render::figure::Series;
 using sim::ChannelKind;

@@ -14,7 +14,7 @@ namespace {
 constexpr int kFallPoints = 2001;  // points: a column of print has fewer dots
 constexpr double kAround = 12e-6;  // half of the enlarged interval about the rigid crossing [s]
 
-// The time that the inset enlarges: only the hinged rod released at rest has a closed form for it.
+// The time that the close-up enlarges: only the hinged rod released at rest has a closed form for it.
 std::optional<double> closed_form(const sim::Problem& p) {
     const bool plain = std::holds_alternative<sim::FreeDrive>(p.hub.drive) && p.hub.radius == 0 && p.hub.inertia == 0 &&
                        p.initial.angular_velocity == 0 && p.initial.shape == sim::InitialShape::straight &&
@@ -46,7 +46,7 @@ struct Fall {
 struct Falls {
     std::vector<Fall> shown;
     bool flexible = false, paper = false;
-    std::optional<double> closely;  // when the rigid beam is level, if the inset shows it [s]
+    std::optional<double> closely;  // when the rigid beam is level, if the close-up shows it [s]
 
     const Fall& rigid() const { return shown[flexible ? 1 : 0]; }
     void mark_zero(const Fall& fall, const MotionResults& results, bool hollow, Panel& panel) const {
@@ -79,15 +79,13 @@ Falls falls_of(const Scene& scene, MotionRequests& requests) {
     return out;
 }
 
-// Microseconds about the closed form, microradians about zero, if both beams cross there. `factor`: of the angles
-// around it.
-std::optional<render::figure::Inset> close_up(const Falls& falls, const MotionResults& results, double factor) {
+// Microseconds about the closed form, microradians about zero, if both beams cross there.
+std::optional<Panel> close_up(const Falls& falls, const MotionResults& results) {
     const double exact = *falls.closely;
     Panel panel{.x = {.label = fmt::format("($t$ − {} s) / µs", grouped(exact, 6)), .tight = true},
                 .y = {.label = "$θ$ / µrad"},
                 .rules = {{.at = 0}},
-                .legend = Legend::none};
-    double slope = 0;
+                .legend = false};
     for (const Fall& fall : falls.shown) {
         if (!fall.close) continue;
         const std::optional<double> zero = fall.zero(results);
@@ -98,41 +96,24 @@ std::optional<render::figure::Inset> close_up(const Falls& falls, const MotionRe
         s.solid = fall.look == 0;
         panel.series.push_back(std::move(s));
         panel.marks.push_back({.x = (*zero - exact) * 1e6, .y = 0, .look = fall.look});
-        slope = std::abs(results[fall.motion]->theta_zero.front().theta_dot);
     }
-    constexpr double kDistinct = 0.2;  // [µs]: closer crossings coincide in the inset
+    constexpr double kDistinct = 0.2;  // [µs]: closer crossings coincide in the close-up
     if (std::abs(panel.marks.front().x - panel.marks.back().x) < kDistinct) return std::nullopt;
-    return render::figure::Inset{
-        .panel = {std::move(panel)},
-        .width = 0.36,
-        .height = 0.34,
-        .source = render::figure::Inset::Source{exact - kAround, exact + kAround, -factor * slope * kAround,
-                                                factor * slope * kAround}};
+    return panel;
 }
 
 Panel fall_panel(const Falls& falls, const MotionResults& results, const Subject& subject) {
     const Measure angle = measure_in(subject.units, "rad");
-    Panel panel{.x = {.label = "$t$ / s", .tight = true},
-                .y = {.label = axis_label("$θ$", angle.unit)},
-                .rules = {{.at = 0}},
-                .legend = Legend::box};
+    Panel panel{
+        .x = {.label = "$t$ / s", .tight = true}, .y = {.label = axis_label("$θ$", angle.unit)}, .rules = {{.at = 0}}};
     for (const Fall& fall : falls.shown) {
         panel.series.push_back(fall.curve(results, fall.table, phrase(subject.lang, fall.label)));
         panel.series.back().y = scaled(std::move(panel.series.back().y), angle.factor);
     }
     panel.series.front().solid = true;
     if (falls.paper) falls.mark_zero(falls.shown.back(), results, false, panel);
-    if (auto inset = falls.closely ? close_up(falls, results, angle.factor) : std::nullopt) {
-        // Room above the curves for the legend and the inset.
-        double low = 0, high = 0;
-        for (const Series& s : panel.series)
-            for (const double v : s.y) low = std::min(low, v), high = std::max(high, v);
-        panel.y.to = 1.75 * high - std::min(0.0, 0.1 * low) + 0.01 * angle.factor;
-        panel.insets.push_back(std::move(*inset));
-    } else {
-        if (falls.flexible) falls.mark_zero(falls.shown.front(), results, false, panel);
-        falls.mark_zero(falls.rigid(), results, falls.flexible, panel);
-    }
+    if (falls.flexible) falls.mark_zero(falls.shown.front(), results, false, panel);
+    falls.mark_zero(falls.rigid(), results, falls.flexible, panel);
     return panel;
 }
 
@@ -140,7 +121,10 @@ FigureDrawing prepare_fall(const Scene& scene, const FigureOutput&, MotionReques
     return [falls = falls_of(scene, requests)](const Subject& subject, const MotionResults& results) -> Figure {
         Runs runs;
         for (const Fall& fall : falls.shown) runs.emplace_back(&fall.problem, results[fall.motion]);
-        Figure figure{.panels = {fall_panel(falls, results, subject)}, .aspect = 0.74};
+        std::vector<Panel> panels{fall_panel(falls, results, subject)};
+        if (auto closer = falls.closely ? close_up(falls, results) : std::nullopt) panels.push_back(std::move(*closer));
+        const double aspect = panels.size() > 1 ? 1.25 : 0.74;
+        Figure figure{.panels = lettered(std::move(panels)), .aspect = aspect};
         add_caption(figure, runs);
         return figure;
     };

@@ -16,7 +16,7 @@ Panel map_panel(std::string x_label, std::string y_label) {
     return {.x = {.label = std::move(x_label), .from = 0},
             .y = {.label = std::move(y_label), .from = 0},
             .series = {{.line = false, .every_point = true}},
-            .legend = Legend::none};
+            .legend = false};
 }
 
 // The phase of the cam in turns, 0…1.
@@ -97,7 +97,7 @@ Panel histogram(std::string label, const std::vector<double>& values, double end
             .y = {.label = phrase(lang, "impacts"), .with_zero = true, .counts = true},
             .series = {steps},
             .bands = {{.x = steps.x, .low = std::vector<double>(steps.x.size(), 0), .high = steps.y}},
-            .legend = Legend::none};
+            .legend = false};
 }
 
 FigureDrawing prepare_histograms(const Scene& scene, const FigureOutput& how, MotionRequests& requests) {

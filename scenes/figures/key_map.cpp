@@ -52,7 +52,6 @@ void color_by_class(const SweptPoints& points, const std::vector<output::StoredP
         swatches.emplace(std::pair(p.kind, std::min(period, std::size(kPeriodColors))), entry);
     }
     for (const auto& [order, entry] : swatches) panel.swatches.push_back(entry);
-    panel.legend = figure::Legend::box;
 }
 
 // Beside colours that are nearly white at 0.
@@ -83,7 +82,7 @@ void color_by_value(const SweptPoints& points, const std::vector<output::StoredP
     }
     panel.color_bar =
         figure::ColorBar{.label = map_label(points, value), .from = low, .to = high, .is_signed = both_signs};
-    panel.legend = both_signs ? figure::Legend::above : figure::Legend::none;
+    panel.legend = both_signs;
     const auto explain = [&](Color color, std::string label) {
         if (std::ranges::find(cells.colors, color) != cells.colors.end())
             panel.swatches.push_back({std::move(label), color});

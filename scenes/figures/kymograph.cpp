@@ -59,7 +59,7 @@ Panel kymograph_panel(const std::vector<double>& v, const ShownPoses& shown, dou
             .y = {.label = "$x$ / m", .tight = true},
             .cells = {std::move(cells)},
             .color_bar = bar,
-            .legend = Legend::none};
+            .legend = false};
 }
 
 FigureDrawing prepare_kymograph(const Scene& scene, const FigureOutput& how, MotionRequests& requests) {

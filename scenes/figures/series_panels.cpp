@@ -56,7 +56,7 @@ class SeriesPanelMaker {
         if (!keys_.right.empty()) panel_.right.emplace();
         add_side({planned_.left, keys_.channels, false});
         if (panel_.right) add_side({planned_.right, keys_.right, true});
-        panel_.legend = has_sums() ? Legend::box : curves_ > 1 ? Legend::direct : Legend::none;
+        panel_.legend = has_sums() || curves_ > 1;
         if (has_sums()) panel_.share = 2.2;
         for (auto& rule : series_rules(plan_, planned_, results_)) panel_.rules.push_back(std::move(rule));
         std::vector<Panel> out;
@@ -175,7 +175,7 @@ class SeriesPanelMaker {
         panel_.series.push_back(std::move(curve));
     }
 
-    // Paler where θ is not reproducible.
+    // Paler where θ is not reproducible. Forces are solid: gaps of dashes would hide their short peaks.
     void add_curve(const Side& side, std::size_t i) {
         const SeriesMotion& motion = plan_.motions[side.curves[i].motion];
         const std::size_t shown = planned_.motions.size();
@@ -189,6 +189,7 @@ class SeriesPanelMaker {
                            .x = plan_.abscissa.of(rows, motion.problem),
                            .y = scaled(rows.values.back(), side.measure.factor),
                            .look = curves_++,
+                           .solid = side.channels[i / shown].kind == sim::ChannelKind::contact_force,
                            .right = side.right,
                            .weight = kCurveWeight};
         std::vector<Series> parts = by_reliability(whole, rows.values[0], plan_.unreliable(*results_[motion.request]));
@@ -259,7 +260,7 @@ class SeriesPanelMaker {
         differences_.name = name(channel) + " difference";
         differences_.rules.push_back({.at = 0});
         differences_.share = 0.6;
-        differences_.legend = Legend::none;
+        differences_.legend = false;
     }
 
     const SeriesPlan& plan_;

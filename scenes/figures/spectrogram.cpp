@@ -117,7 +117,7 @@ Panel spectrogram_panel(sim::Channel channel, const Spectrogram& s, double most,
                                          .scale = render::Scale::logarithmic,
                                          .from = largest * std::pow(10, -kDecades),
                                          .to = largest},
-            .legend = Legend::none,
+            .legend = false,
             .name = name(channel)};
 }
 

@@ -8,6 +8,7 @@
 
 #include "render/mechanism/cam_outline.hpp"
 #include "render/mechanism/exaggeration.hpp"
+#include "render/mechanism/mechanism.hpp"
 #include "render/plot/ticks.hpp"
 #include "scenes/figures/figure_types.hpp"
 #include "scenes/figures/sketch.hpp"
@@ -63,8 +64,7 @@ void add_bodies(const sim::Pose& pose, const sim::Problem& problem, Sketch& to, 
     to.add({.kind = Sketch::Kind::area, .points = outline, .color = kSteel});
     outline.push_back(outline.front());
     to.add({.kind = Sketch::Kind::line, .points = outline, .color = Sketch::kInk, .width = kOutline});
-    // The hub holds the whole section, also where that is drawn beside the axis.
-    const double hub = std::max(std::abs(problem.hub.radius), 1.1 * beam_depth(problem.beam));
+    const double hub = std::max(std::abs(problem.hub.radius), render::root_radius(problem));
     to.disc({0, 0}, hub, kSteel, kOutline);
     extent.add({0, 0}, hub);
     if (!pose.nearest || !(pose.nearest->force > 0)) return;
@@ -83,7 +83,7 @@ void add_bodies(const sim::Pose& pose, const sim::Problem& problem, Sketch& to, 
 bool is_level(const Vec2& along) { return std::abs(along.x) > 0.5; }
 
 // Beyond the tip, where no other beam is drawn.
-void add_instant(const sim::Pose& pose, std::string instant, bool if_room, Sketch& to) {
+void add_instant(const sim::Pose& pose, std::string instant, Sketch& to) {
     const Vec2 along = sim::unit(pose.theta);
     const bool level = is_level(along);
     using render::VAlign;
@@ -97,8 +97,7 @@ void add_instant(const sim::Pose& pose, std::string instant, bool if_room, Sketc
                                     : render::HAlign::right,
             .valign = level         ? VAlign::middle
                       : along.y > 0 ? VAlign::bottom
-                                    : VAlign::top,
-            .if_room = if_room});
+                                    : VAlign::top});
 }
 
 // Writes instants that are equally spaced with the same decimals, exactly if a few are enough, without zeros at the
@@ -126,17 +125,16 @@ class InstantText {
     int decimals_ = 0;
 };
 
-// First and last, in one label where two would overlap; the others if all of them have room.
+// First and last, in one label where two would overlap.
 void label_instants(const std::vector<sim::Pose>& poses, Sketch& to) {
-    if (poses.size() == 1) return add_instant(poses.front(), number(poses.front().t, kDigits) + " s", false, to);
+    if (poses.size() == 1) return add_instant(poses.front(), number(poses.front().t, kDigits) + " s", to);
     const InstantText text_of(poses);
     const sim::Pose &first = poses.front(), &last = poses.back();
     constexpr double kHeight = 0.05, kWidth = 0.15;  // about those of a label; level beams have labels below each other
     const double room = is_level(sim::unit(first.theta)) ? kHeight : kWidth;
     const bool joined = std::abs(std::remainder(last.theta - first.theta, 2 * std::numbers::pi)) <= room;
-    add_instant(first, joined ? text_of(first) + ", " + text_of(last) : text_of(first), false, to);
-    if (!joined) add_instant(last, text_of(last), false, to);
-    for (std::size_t k = 1; k + 1 < poses.size(); ++k) add_instant(poses[k], text_of(poses[k]), true, to);
+    add_instant(first, joined ? text_of(first) + ", " + text_of(last) : text_of(first), to);
+    if (!joined) add_instant(last, text_of(last), to);
 }
 
 Panel strobe_panel(const std::vector<sim::Pose>& poses, const sim::Problem& problem, render::Bounds& extent) {

@@ -69,7 +69,7 @@ Figure svaj_figure(const Subject& subject, const sim::Result* result, std::size_
         panels.push_back({.x = {.label = "$φ$ / °", .from = 0, .to = 360, .tight = true},
                           .y = {.label = label},
                           .series = {std::move(curve)},
-                          .legend = result && panels.empty() ? Legend::above : Legend::none,
+                          .legend = result && panels.empty(),
                           .name = names[panels.size()]});
         if (panels.size() > 1) panels.back().rules = {{.at = 0}};
     }

@@ -95,11 +95,8 @@ figure::Figure sample_plane(const SweptPoints& points, const std::string& x, con
         const std::string label = column_label(points, c);
         return {.label = next ? phrase(points.lang, which, label) : label};
     };
-    figure::Panel panel{.x = axis(cx, "{}, impact $k$"),
-                        .y = axis(cy, "{}, impact $k$ + 1"),
-                        .clouds = std::move(clouds),
-                        .legend = figure::Legend::box,
-                        .name = y};
+    figure::Panel panel{
+        .x = axis(cx, "{}, impact $k$"), .y = axis(cy, "{}, impact $k$ + 1"), .clouds = std::move(clouds), .name = y};
     if (has_many_values(points)) {
         const auto [least, most] = std::ranges::minmax(points.axis(0).values);
         panel.color_bar = figure::ColorBar{.label = label_of(points.axis(0)), .from = least, .to = most};

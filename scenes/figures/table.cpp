@@ -64,7 +64,7 @@ Panel panel_of(const std::vector<Column>& columns, const std::vector<double>& x,
         names.push_back(label_of(column));
     }
     const Measure measure = measure_in_figure(columns.front(), largest, units);
-    Panel panel{.legend = Legend::box, .name = columns.front().name};
+    Panel panel{.name = columns.front().name};
     panel.y.label = axis_label(label.empty() ? fmt::format("{}", fmt::join(names, ", ")) : label, measure.unit);
     panel.y.keeps_unit = !columns.front().prefixed;
     for (const Column& column : columns) add_column(panel, x, column, measure.factor, columns.size() > 1);

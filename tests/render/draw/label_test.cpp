@@ -64,32 +64,5 @@ TEST(Label, SuperscriptsLeanAwayFromItalicLetters) {
     EXPECT_DOUBLE_EQ(set("$x$)").runs[1].x, 5 + 0.3);
 }
 
-// The width is that of the wider part plus a gap on either side; the line is between the parts.
-TEST(Label, FractionsHaveALineBetweenTheirParts) {
-    const SetLabel label = set("$\\frac{1}{234}$");
-    ASSERT_EQ(label.runs.size(), 2u);
-    ASSERT_EQ(label.rules.size(), 1u);
-    EXPECT_NEAR(label.width, 3 * 3.2 + 2 * 0.9, 1e-12);
-    EXPECT_NEAR(label.runs[0].x + label.runs[0].advance / 2, label.width / 2, 1e-12);
-    const double line = label.rules[0].front().y;
-    EXPECT_NEAR(line, -2.7, 1e-12);
-    EXPECT_NEAR(line - label.runs[0].y, 0.9, 1e-12);                             // below the upper part's baseline
-    EXPECT_NEAR(label.runs[1].y - 0.7 * label.runs[1].size - line, 0.9, 1e-12);  // above the lower part's capitals
-    EXPECT_NEAR(label.ascent, -label.runs[0].y + 0.7 * 6.4, 1e-12);
-    EXPECT_NEAR(label.descent, label.runs[1].y, 1e-12);
-}
-
-TEST(Label, RootsCoverWhatIsInside) {
-    const SetLabel label = set("$\\sqrt{\\frac{1}{2}}$"), inside = set("$\\frac{1}{2}$");
-    ASSERT_EQ(label.rules.size(), 2u);
-    const std::vector<Vec2>& sign = label.rules.front();
-    EXPECT_NEAR(sign.back().x - sign[3].x, inside.width, 1e-12);
-    EXPECT_NEAR(sign.back().y, -inside.ascent - 0.9, 1e-12);
-    EXPECT_NEAR(sign[2].y, inside.descent, 1e-12);
-    EXPECT_GT(label.ascent, -sign.back().y);
-    // After a fraction there is space, so that the lines do not touch.
-    EXPECT_NEAR(set("$\\frac{1}{2}\\sqrt{3}$").width, inside.width + set("$\\sqrt{3}$").width + 0.9, 1e-12);
-}
-
 }  // namespace
 }  // namespace beamcam::render

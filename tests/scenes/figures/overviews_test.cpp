@@ -69,7 +69,7 @@ TEST(Overviews, AStrobeWritesItsInstantsExactly) {
             EXPECT_NEAR(k, std::round(k), 1e-9) << shape.markup;
             ++labels;
         }
-    EXPECT_GE(labels, 3);
+    EXPECT_EQ(labels, 2);
 }
 
 TEST(Overviews, AStillOfLinesIsAStrobeOfOneInstant) {
@@ -303,18 +303,12 @@ std::vector<render::figure::PageCanvas::Written> instants_on(const render::figur
     return sheet.written;
 }
 
-TEST(Overviews, AStrobeNamesAllInstantsOrTheFirstAndTheLast) {
+TEST(Overviews, AStrobeNamesTheFirstAndTheLastInstant) {
     const auto labels = [](const render::figure::Figure& figure) {
         std::vector<std::string> out;
         for (const auto& text : instants_on(figure, "aps")) out.push_back(text.markup);
         return out;
     };
-    EXPECT_THAT(
-        labels(testing::simulated(
-            R"({"cam": null, "hub": {"drive": {"type": "prescribed", "law": "constant", "speed": 1}},
-                        "initial": {"angle": -0.5}, "time": {"end": 0.8}, "outputs": [{"type": "figure", "figure": "strobe"}]})")),
-        ::testing::UnorderedElementsAre("0 s", "0.1 s", "0.2 s", "0.3 s", "0.4 s", "0.5 s", "0.6 s", "0.7 s", "0.8 s"));
-    // The fall begins slowly.
     EXPECT_THAT(labels(overview_of("strobe", R"(, "to": 0.25)")), ::testing::ElementsAre("0 s", "0.25 s"));
     EXPECT_THAT(labels(overview_of("strobe", R"(, "to": 0.05)")), ::testing::ElementsAre("0 s, 0.05 s"));
 }
