@@ -17,7 +17,7 @@ CaptionBand::CaptionBand(const FilmContext& context) : context_(context) {
     if (!context.places.captions) return;
     Image scratch(1, 1);
     const Canvas canvas(scratch, *context.fonts);
-    const double heading = context.letters.heading;
+    const double heading = context.look.letters.heading;
     for (const Callout& each : context.setup->callouts)
         texts_.push_back(fitted_text(canvas, each.text, style_of(kCaption * heading, {}),
                                      std::max(kSmallCaption * heading, kReadable), context.places.captions->w));
@@ -32,7 +32,7 @@ void CaptionBand::draw(Canvas& canvas, int frame) const {
         const Vec2 middle = context_.places.captions->centre();
         const double size = texts_[i].size;
         return void(canvas.text(middle + Vec2{0, 0.36 * size}, texts_[i].markup,
-                                style_of(size, context_.palette->ink.faded(callouts[i].opacity(frame)))));
+                                style_of(size, context_.look.palette.ink.faded(callouts[i].opacity(frame)))));
     }
 }
 

@@ -10,18 +10,19 @@
 namespace beamcam::render {
 
 inline figure::PlotStyle chart_style(const FilmContext& context) {
-    return figure::film_style(*context.palette, context.unit, context.letters.heading, context.letters.words);
+    return figure::film_style(context.look.palette, context.look.unit, context.look.letters.heading,
+                              context.look.letters.words);
 }
 
 class ChartPanel : public FilmPanel {
   public:
     ChartPanel(const FilmContext& context, ChartContent content, const Box& box)
         : context_(context),
-          chart_(std::move(content), box, plot_area(box, context.unit, context.letters.words), chart_style(context),
-                 *context.fonts) {}
+          chart_(std::move(content), box, plot_area(box, context.look.unit, context.look.letters.words),
+                 chart_style(context), *context.fonts) {}
     void draw_background(Canvas& canvas) const override { chart_.draw_background(canvas); }
     void draw(Canvas& canvas, int frame, Style, State*) const override {
-        chart_.draw_moving(canvas, context_.at(frame), readings(frame));
+        chart_.draw_moving(canvas, context_.clock.at(frame), readings(frame));
     }
 
   protected:

@@ -12,7 +12,7 @@ constexpr double kAfterClock = 36, kBetweenPills = 14;  // [design px]
 constexpr double kPadding = 1.7;                        // of a pill, in sizes of its letters
 
 std::string peak_text(const FilmContext& context, const std::string& force) {
-    return context.translate("peak") + "\u00A0$F$\u2009=\u2009" + force;
+    return context.look.translate("peak") + "\u00A0$F$\u2009=\u2009" + force;
 }
 
 }  // namespace
@@ -21,7 +21,7 @@ double recent_peak(const FilmContext& context, int member, int frame) {
     constexpr double kHeld = 1;  // [s of the film], freezes not counted; in a still, of the motion
     const std::vector<sim::Impact>& impacts = context.motion(member).impacts;
     const std::vector<TraceSample>& samples = context.samples[static_cast<std::size_t>(member)];
-    const double t = context.at(frame);
+    const double t = context.clock.at(frame);
     const auto later = std::ranges::upper_bound(impacts, t, {}, &sim::Impact::t_start);
     if (later == impacts.begin()) return 0;
     auto first_impact = std::prev(later);  // of the collision
@@ -41,9 +41,10 @@ double recent_peak(const FilmContext& context, int member, int frame) {
             peak = std::max(peak, pose.nearest->force);
     }
     if (context.frames() == 1) return t - end < kHeld ? peak : 0;
-    if (end < context.times.front()) return 0;
-    const auto ended = static_cast<std::size_t>(std::ranges::lower_bound(context.times, end) - context.times.begin());
-    const int since = context.moved[static_cast<std::size_t>(frame)] - context.moved[ended];
+    if (end < context.clock.times.front()) return 0;
+    const auto ended =
+        static_cast<std::size_t>(std::ranges::lower_bound(context.clock.times, end) - context.clock.times.begin());
+    const int since = context.clock.moved[static_cast<std::size_t>(frame)] - context.clock.moved[ended];
     return since < kHeld * context.setup->fps ? peak : 0;
 }
 
@@ -52,21 +53,22 @@ ClockLine::ClockLine(const FilmContext& context) : context_(context) {
     const FilmSetup& setup = *context.setup;
     const bool mechanism = context.places.first(PanelKind::mechanism) != nullptr;
     if (!context.places.clock) return;
-    if (setup.view.show.legend && context.factor > 1 && mechanism)
-        pills_.push_back({Pill::Kind::exaggeration, context.translate("deflection ×" + power_text(context.factor)),
-                          context.palette->motion});
+    if (setup.view.show.legend && context.scales.exaggeration > 1 && mechanism)
+        pills_.push_back({Pill::Kind::exaggeration,
+                          context.look.translate("deflection ×" + power_text(context.scales.exaggeration)),
+                          context.look.palette.motion});
     if (setup.view.show.legend && !setup.speeds.empty())
         pills_.push_back(
-            {Pill::Kind::speed, context.translate(widest_speed_text(setup.speeds)), context.palette->contact});
+            {Pill::Kind::speed, context.look.translate(widest_speed_text(setup.speeds)), context.look.palette.contact});
     for (int m = 0; m < context.members() && mechanism && setup.view.show.labels; ++m)
-        if (!context.motion(m).impacts.empty() && context.largest_force > 0)
+        if (!context.motion(m).impacts.empty() && context.scales.largest_force > 0)
             pills_.push_back({Pill::Kind::peak, peak_text(context, "88.8\u00A0mN"),
-                              context.members() > 1 ? context.member_color(m) : context.palette->contact, m});
+                              context.members() > 1 ? context.member_color(m) : context.look.palette.contact, m});
     steady_ = steady_speed(setup.speeds);
     Image scratch(1, 1);
     const Canvas canvas(scratch, *context.fonts);
     const auto fits = [&](double size) {
-        size_ = size * context.letters.title, letters_ = std::max(size * context.letters.words, kReadable);
+        size_ = size * context.look.letters.title, letters_ = std::max(size * context.look.letters.words, kReadable);
         return measure(canvas) <= context.places.clock->right();
     };
     if (fits(1) || fits(kSmaller)) return;
@@ -81,8 +83,8 @@ bool ClockLine::states_exaggeration() const {
 }
 
 double ClockLine::measure(const Canvas& canvas) {
-    const double u = context_.unit, last = context_.at(context_.frames() - 1);
-    clock_width_ = canvas.measure(clock_text(context_.time, last, last), clock_style()).w;
+    const double u = context_.look.unit, last = context_.clock.at(context_.frames() - 1);
+    clock_width_ = canvas.measure(clock_text(context_.clock.format, last, last), clock_style()).w;
     double right = context_.places.clock->x;
     if (context_.setup->view.show.clock) right += clock_width_;
     first_ = right + (context_.setup->view.show.clock ? kAfterClock * u : 0);
@@ -95,16 +97,16 @@ double ClockLine::measure(const Canvas& canvas) {
 }
 
 TextStyle ClockLine::clock_style() const {
-    return {.size = size_, .color = context_.palette->ink, .weight = Weight::semibold};
+    return {.size = size_, .color = context_.look.palette.ink, .weight = Weight::semibold};
 }
 
 // On an unknown background pills are opaque.
 TextStyle ClockLine::pill_style(const Pill& pill) const {
-    return {
-        .size = letters_,
-        .color = context_.setup->view.transparent ? context_.palette->paper : readable(*context_.palette, pill.color),
-        .weight = Weight::medium,
-        .align = HAlign::centre};
+    return {.size = letters_,
+            .color = context_.setup->view.transparent ? context_.look.palette.paper
+                                                      : readable(context_.look.palette, pill.color),
+            .weight = Weight::medium,
+            .align = HAlign::centre};
 }
 
 // Empty: the pill is not shown.
@@ -113,7 +115,8 @@ std::string ClockLine::words(const Pill& pill, int frame) const {
         case Pill::Kind::exaggeration:
             return pill.widest;
         case Pill::Kind::speed:
-            return context_.translate(speed_text(context_.setup->speeds[static_cast<std::size_t>(frame)], steady_));
+            return context_.look.translate(
+                speed_text(context_.setup->speeds[static_cast<std::size_t>(frame)], steady_));
         case Pill::Kind::peak:
             break;
     }
@@ -124,10 +127,10 @@ std::string ClockLine::words(const Pill& pill, int frame) const {
 void ClockLine::draw(Canvas& canvas, int frame) const {
     if (!context_.places.clock) return;
     const Box& b = *context_.places.clock;
-    const double u = context_.unit, last = context_.at(context_.frames() - 1);
+    const double u = context_.look.unit, last = context_.clock.at(context_.frames() - 1);
     if (context_.setup->view.show.clock && clock_width_ <= b.w)
-        canvas.text({b.x, b.y + 24 * u + 0.35 * size_}, clock_text(context_.time, context_.at(frame), last),
-                    clock_style());
+        canvas.text({b.x, b.y + 24 * u + 0.35 * size_},
+                    clock_text(context_.clock.format, context_.clock.at(frame), last), clock_style());
     double x = first_;
     for (const Pill& pill : pills_) {
         const std::string text = words(pill, frame);

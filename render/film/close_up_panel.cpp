@@ -21,8 +21,8 @@ class CloseUpPanel final : public FilmPanel {
   public:
     CloseUpPanel(const FilmContext& context, const PanelSlot& slot)
         : context_(context), member_(std::min(slot.spec.member, context.members() - 1)), box_(slot.box) {
-        const double u = context.unit;
-        const double left = 70 * u + 2.4 * (context.letters.words - 17 * u);  // as in plot_area
+        const double u = context.look.unit;
+        const double left = 70 * u + 2.4 * (context.look.letters.words - 17 * u);  // as in plot_area
         plot_ = {std::round(box_.x + left), std::round(box_.y + 46 * u), std::round(box_.w - left - 8 * u),
                  std::round(box_.h - 46 * u - 40 * u)};
         for (const sim::Impact& i : motion().impacts) depth_ = std::max(depth_, i.penetration_peak);
@@ -39,14 +39,15 @@ class CloseUpPanel final : public FilmPanel {
     }
 
     void draw_background(Canvas& canvas) const override {
-        const double u = context_.unit;
-        const Palette& p = *context_.palette;
-        const TextStyle bold{.size = context_.letters.heading, .weight = Weight::semibold},
-            plain{.size = context_.letters.heading, .weight = Weight::medium};
+        const double u = context_.look.unit;
+        const Palette& p = context_.look.palette;
+        const TextStyle bold{.size = context_.look.letters.heading, .weight = Weight::semibold},
+            plain{.size = context_.look.letters.heading, .weight = Weight::medium};
         const double room =
-            plot_.w - canvas.measure(context_.translate("penetration") + " 000\u00A0µm", plain).w - 16 * u;
+            plot_.w - canvas.measure(context_.look.translate("penetration") + " 000\u00A0µm", plain).w - 16 * u;
         const std::string whose = motion_suffix(context_, member_);
-        const std::string whole = context_.translate("Contact close-up"), brief = context_.translate("Contact");
+        const std::string whole = context_.look.translate("Contact close-up"),
+                          brief = context_.look.translate("Contact");
         // The reading is beside the heading.
         draw_heading(canvas, context_, {plot_.x, box_.y, plot_.w, plot_.h},
                      first_that_fits(canvas, {whole + whose, brief + whose, brief, ""}, bold, room));
@@ -81,8 +82,8 @@ class CloseUpPanel final : public FilmPanel {
     }
 
     void draw_heights(Canvas& canvas) const {
-        const double u = context_.unit;
-        const Palette& p = *context_.palette;
+        const double u = context_.look.unit;
+        const Palette& p = context_.look.palette;
         // At least two marks, since one does not show a scale.
         Ticks marks;
         for (int most = std::clamp(static_cast<int>(plot_.h / (45 * u)), 2, 5); marks.values.size() < 2; ++most)
@@ -90,15 +91,15 @@ class CloseUpPanel final : public FilmPanel {
         for (double v : marks.values) {
             const double y = std::round(at(0, v * unit_.factor).y) + 0.5;
             canvas.line({plot_.x - 6 * u, y}, {plot_.x, y}, {p.muted, std::max(1.0, u), {}, Cap::butt});
-            canvas.text({plot_.x - 12 * u, y + 6.0 / 17 * context_.letters.words}, fixed(v, marks.decimals),
-                        {.size = context_.letters.words, .color = p.muted, .align = HAlign::right});
+            canvas.text({plot_.x - 12 * u, y + 6.0 / 17 * context_.look.letters.words}, fixed(v, marks.decimals),
+                        {.size = context_.look.letters.words, .color = p.muted, .align = HAlign::right});
         }
     }
 
     // The scale bar of widths, and beside it how heights are enlarged.
     void draw_scales(Canvas& canvas) const {
-        const double u = context_.unit;
-        const TextStyle note{.size = context_.letters.words, .color = context_.palette->muted};
+        const double u = context_.look.unit;
+        const TextStyle note{.size = context_.look.letters.words, .color = context_.look.palette.muted};
         TextStyle at_right = note;
         at_right.align = HAlign::right;
         const double bar = round_down_125(0.5 * half_width_), w = bar / (2 * half_width_) * plot_.w;
@@ -106,13 +107,13 @@ class CloseUpPanel final : public FilmPanel {
         canvas.polyline(std::array<Vec2, 4>{{{x1 - w, y - 4 * u}, {x1 - w, y}, {x1, y}, {x1, y - 4 * u}}});
         canvas.stroke({note.color, 1.6 * u, {}, Cap::butt});
         const std::string length = quantity(bar, "m");
-        canvas.text({x1, y + 3 * u + context_.letters.words}, length, at_right);
+        canvas.text({x1, y + 3 * u + context_.look.letters.words}, length, at_right);
         const double left = plot_.w - std::max(w, canvas.measure(length, note).w) - 20 * u;
         const double stretch = (plot_.h / (shown_.high - shown_.low)) / (plot_.w / (2 * half_width_));
-        const std::string whole = context_.translate(
+        const std::string whole = context_.look.translate(
                               fmt::format("heights in {}m, ×{:.2g} against widths", unit_.symbol, stretch)),
-                          brief = context_.translate(fmt::format("heights in {}m", unit_.symbol));
-        canvas.text({plot_.x, y - 3 * u + context_.letters.words},
+                          brief = context_.look.translate(fmt::format("heights in {}m", unit_.symbol));
+        canvas.text({plot_.x, y - 3 * u + context_.look.letters.words},
                     first_that_fits(canvas, {whole, brief, fmt::format("{}m", unit_.symbol), ""}, note, left), note);
     }
 
@@ -135,11 +136,11 @@ class CloseUpPanel final : public FilmPanel {
     }
 
     void draw_cam(Canvas& canvas, const sim::Pose& pose) const {
-        const Palette& p = *context_.palette;
+        const Palette& p = context_.look.palette;
         const std::vector<Vec2> edge = rim(pose);
         fill_to(canvas, edge, plot_.bottom() + 4, p.steel);
         canvas.polyline(edge);
-        canvas.stroke({p.steel_edge, 2 * context_.unit});
+        canvas.stroke({p.steel_edge, 2 * context_.look.unit});
     }
 
     // The touching face near the contact, from the true centre line: heights above the tangent at the contact.
@@ -169,13 +170,13 @@ class CloseUpPanel final : public FilmPanel {
     }
 
     void draw_beam(Canvas& canvas, const sim::Pose& pose) const {
-        const Palette& p = *context_.palette;
-        const double u = context_.unit;
+        const Palette& p = context_.look.palette;
+        const double u = context_.look.unit;
         if (pose.nearest->gap > shown_.high) {  // above the plot: an arrow points to it
             const double x = plot_.x + 20 * u;
             canvas.arrow({x, plot_.y + 40 * u}, {x, plot_.y + 10 * u}, {p.motion, 2.4 * u}, {14 * u});
-            canvas.text({x + 14 * u, plot_.y + 31 * u}, context_.translate("beam"),
-                        {.size = context_.letters.words, .color = p.motion, .weight = Weight::medium});
+            canvas.text({x + 14 * u, plot_.y + 31 * u}, context_.look.translate("beam"),
+                        {.size = context_.look.letters.words, .color = p.motion, .weight = Weight::medium});
             return;
         }
         const std::vector<Vec2> heights = face(pose);
@@ -197,25 +198,27 @@ class CloseUpPanel final : public FilmPanel {
         }
         canvas.polyline(edge);
         canvas.stroke({p.motion, 2.4 * u});
-        const TextStyle name{.size = context_.letters.words, .color = p.motion, .weight = Weight::medium};
+        const TextStyle name{.size = context_.look.letters.words, .color = p.motion, .weight = Weight::medium};
         const double top = std::max(edge.front().y, plot_.y + 30 * u);
         if (top - plot_.y > 24 * u)
-            canvas.text({plot_.x + 12 * u, std::min(plot_.y + 24 * u, top - 6 * u)}, context_.translate("beam"), name);
+            canvas.text({plot_.x + 12 * u, std::min(plot_.y + 24 * u, top - 6 * u)}, context_.look.translate("beam"),
+                        name);
         if (at(0, std::min(0.0, pose.nearest->gap)).y < plot_.bottom() - 32 * u)  // below the overlap
-            canvas.text(
-                {plot_.x + plot_.w / 2 - 14 * u, plot_.bottom() - 12 * u}, context_.translate("cam"),
-                {.size = context_.letters.words, .color = mix(p.steel_edge, p.steel, 0.25), .weight = Weight::medium});
+            canvas.text({plot_.x + plot_.w / 2 - 14 * u, plot_.bottom() - 12 * u}, context_.look.translate("cam"),
+                        {.size = context_.look.letters.words,
+                         .color = mix(p.steel_edge, p.steel, 0.25),
+                         .weight = Weight::medium});
         forces(canvas, *pose.nearest);
     }
 
     void forces(Canvas& canvas, const sim::Nearest& near) const {
-        if (!near.touching || !(near.force > 0) || !(context_.force_scale > 0)) return;
-        const Palette& p = *context_.palette;
-        const double u = context_.unit, longest = 0.55 * plot_.h;
+        if (!near.touching || !(near.force > 0) || !(context_.scales.force > 0)) return;
+        const Palette& p = context_.look.palette;
+        const double u = context_.look.unit, longest = 0.55 * plot_.h;
         const Vec2 foot = at(0, near.gap / 2);
         // Both forces have the same scale; those too short for an arrow are shown only as numbers.
         const auto arrow = [&](double force, Vec2 way) {
-            const double length = longest * std::min(1.0, force / context_.force_scale);
+            const double length = longest * std::min(1.0, force / context_.scales.force);
             if (length > 5 * u)
                 canvas.arrow(foot, foot + way * length, {p.contact, 4 * u}, {std::min(16 * u, 0.7 * length)});
         };

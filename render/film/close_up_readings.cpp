@@ -55,31 +55,34 @@ std::string friction_word(const sim::Problem& problem, const sim::Nearest& conta
 
 void CloseUpReadings::draw(Canvas& canvas, const sim::Pose& pose, double face) const {
     const sim::Nearest& near = *pose.nearest;
-    const Palette& p = *context.palette;
-    const double u = context.unit;
+    const Palette& p = context.look.palette;
+    const double u = context.look.unit;
     const bool deep = near.gap < 0;
     const double size = std::abs(near.gap);
     const std::string amount = size < 1e-3 * unit.factor          ? quantity(0, unit, "m", 1)
                                : unit.factor != 1e-6 || size >= 1 ? quantity(size, "m")
                                : size < 1e-3 ? fmt::format("{}\u00A0µm", fixed(size * 1e6, size < 1e-5 ? 1 : 0))
                                              : fmt::format("{}\u00A0mm", fixed(size * 1e3, size < 0.1 ? 1 : 0));
-    draw_reading(canvas, {plot.right(), box.y + 26 * u}, context.translate(deep ? "penetration" : "gap"), amount,
-                 "00.0\u00A0mm",
-                 {.size = context.letters.heading, .color = deep ? p.contact : p.motion, .weight = Weight::medium});
+    draw_reading(
+        canvas, {plot.right(), box.y + 26 * u}, context.look.translate(deep ? "penetration" : "gap"), amount,
+        "00.0\u00A0mm",
+        {.size = context.look.letters.heading, .color = deep ? p.contact : p.motion, .weight = Weight::medium});
     draw_count(canvas, pose, face);
 }
 
 void CloseUpReadings::draw_count(Canvas& canvas, const sim::Pose& pose, double face) const {
-    const Palette& p = *context.palette;
-    const double u = context.unit;
+    const Palette& p = context.look.palette;
+    const double u = context.look.unit;
     const std::string count =
-        context.translate(collision_counter(motion, pose.t) + friction_word(motion.problem, *pose.nearest));
-    const TextStyle style{.size = context.letters.words, .color = p.ink, .align = HAlign::right};
-    const double room = plot.w - canvas.measure(context.translate("beam"), {.size = context.letters.words}).w - 40 * u,
+        context.look.translate(collision_counter(motion, pose.t) + friction_word(motion.problem, *pose.nearest));
+    const TextStyle style{.size = context.look.letters.words, .color = p.ink, .align = HAlign::right};
+    const double room = plot.w -
+                        canvas.measure(context.look.translate("beam"), {.size = context.look.letters.words}).w - 40 * u,
                  wide = canvas.measure(count, style).w;
     if (count.empty() || wide > room) return;
-    const double line = plot.y + 2 * u + 1.1 * context.letters.words, bottom = line + 0.4 * context.letters.words,
-                 right = plot.right() - 10 * u, left = right - wide - 8 * u;
+    const double line = plot.y + 2 * u + 1.1 * context.look.letters.words,
+                 bottom = line + 0.4 * context.look.letters.words, right = plot.right() - 10 * u,
+                 left = right - wide - 8 * u;
     const Color background = close_up_background(p);
     canvas.rectangle({left, plot.y + 3 * u, plot.right() - 3 * u - left, bottom - plot.y - 3 * u});
     canvas.fill(face > (plot.y + bottom) / 2 ? mix(background, p.motion, 0.30) : background);

@@ -32,16 +32,16 @@ class EnergyPanel final : public ChartPanel {
   private:
     struct Part {
         std::string label;
-        std::string symbol;  // used if there is no space for the label
+        std::string symbol;  // where the label has no room
         std::vector<ChannelKind> channels;
         Color color;
     };
     static std::vector<Part> parts(const FilmContext& context) {
-        const Palette& p = *context.palette;
+        const Palette& p = context.look.palette;
         using K = ChannelKind;
         const auto part = [&](const char* label, std::string symbol, std::vector<K> channels) {
             const Color color = *energy_color(p, channels.front());
-            return Part{context.translate(label), std::move(symbol), std::move(channels), color};
+            return Part{context.look.translate(label), std::move(symbol), std::move(channels), color};
         };
         return {part("potential", "$V$", {K::energy_potential}), part("kinetic", "$T$", {K::energy_kinetic}),
                 part("bending", "$U$", {K::energy_elastic}), part("contact", "$U$_{c}", {K::energy_contact}),
@@ -53,7 +53,7 @@ class EnergyPanel final : public ChartPanel {
         const int member = std::min(spec.member, context.members() - 1);
         ChartContent c = blank_content(context, spec, member);
         if (is_wide(context, slot.box))
-            c.words = context.translate("Energy") + " ";  // otherwise only the symbol and the legend fit
+            c.words = context.look.translate("Energy") + " ";  // otherwise only the symbol and the legend fit
         const sim::Table& table = context.motion(member).chart;
         const auto* t = column(table, {ChannelKind::t, 0});
         std::vector<double> base(t ? t->size() : 0, 0.0);
@@ -80,22 +80,22 @@ class EnergyPanel final : public ChartPanel {
         return c;
     }
 
-    static bool is_wide(const FilmContext& context, const Box& box) { return box.w > 600 * context.unit; }
+    static bool is_wide(const FilmContext& context, const Box& box) { return box.w > 600 * context.look.unit; }
 
     // The legend beside the heading, in symbols if there is no room for words.
     void legend(Canvas& canvas) const {
-        const double u = context_.unit;
-        const Box plot = plot_area(box_, u, context_.letters.words);
+        const double u = context_.look.unit;
+        const Box plot = plot_area(box_, u, context_.look.letters.words);
         std::vector<Part> shown = parts(context_);
         std::erase_if(shown, [&](const Part& part) { return !occurs(part); });
         const double first =
             plot.x +
             canvas
-                .measure((is_wide(context_, box_) ? context_.translate("Energy") + " E / mJ" : "E / mJ"),
-                         {.size = context_.letters.heading, .weight = Weight::semibold})
+                .measure((is_wide(context_, box_) ? context_.look.translate("Energy") + " E / mJ" : "E / mJ"),
+                         {.size = context_.look.letters.heading, .weight = Weight::semibold})
                 .w +
             20 * u;
-        const TextStyle style{.size = context_.letters.words, .color = context_.palette->muted};
+        const TextStyle style{.size = context_.look.letters.words, .color = context_.look.palette.muted};
         const double side = 0.8 * style.size, beside = 1.15 * style.size, gap = 0.7 * style.size;
         const auto width = [&](const Part& part, bool in_symbols) {
             return beside + canvas.measure(in_symbols ? part.symbol : std::string(part.label), style).w + gap;
@@ -126,14 +126,14 @@ class EnergyPanel final : public ChartPanel {
     // The motion's label, over the bands.
     void draw_member(Canvas& canvas) const {
         if (context_.members() == 1) return;
-        const double u = context_.unit;
-        const Box plot = plot_area(box_, u, context_.letters.words);
+        const double u = context_.look.unit;
+        const Box plot = plot_area(box_, u, context_.look.letters.words);
         canvas.text({plot.x + 10 * u, plot.y + 24 * u}, context_.labels[static_cast<std::size_t>(member_)],
-                    {.size = context_.letters.words,
-                     .color = context_.palette->ink,
+                    {.size = context_.look.letters.words,
+                     .color = context_.look.palette.ink,
                      .weight = Weight::semibold,
                      .max_width = plot.w - 20 * u,
-                     .halo = context_.palette->paper});
+                     .halo = context_.look.palette.paper});
     }
     std::vector<double> readings(int) const override { return {}; }
     Box box_;

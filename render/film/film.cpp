@@ -57,7 +57,7 @@ struct Film::Prepared {
 // do not depend on which frame was drawn before.
 struct Film::FrameRenderer {
     explicit FrameRenderer(const Prepared& p)
-        : fonts(p.context.cjk),
+        : fonts(p.context.look.cjk),
           picture(p.background.width, p.background.height),
           moved(picture.width, picture.height),
           changed(moved) {
@@ -79,36 +79,36 @@ void Film::Prepared::draw_background() {
     const FilmSetup& setup = *context.setup;
     background = Image(setup.width, setup.height);
     Canvas canvas(background, *context.fonts);
-    canvas.halo_of_all = context.palette->halo_of_all();
+    canvas.halo_of_all = context.look.palette.halo_of_all();
     canvas.record = &background_texts;
-    if (!setup.view.transparent) canvas.paint(context.palette->paper);
+    if (!setup.view.transparent) canvas.paint(context.look.palette.paper);
     draw_header(canvas);
     for (const auto& panel : panels) panel->draw_background(canvas);
     draw_color_bars(canvas, context);
 }
 
 void Film::Prepared::draw_header(Canvas& canvas) {
-    const double u = context.unit;
+    const double u = context.look.unit;
     const FilmSetup& setup = *context.setup;
     const Layout& places = context.places;
     if (const auto& b = places.title; b && !setup.title.empty()) {
-        const FittedText title = fitted_title(canvas, setup.title, *b, context.letters);
+        const FittedText title = fitted_title(canvas, setup.title, *b, context.look.letters);
         if (title.cut) cut_texts.emplace_back("the title");
-        TextStyle style = title_style(context.letters, context.palette->ink);
+        TextStyle style = title_style(context.look.letters, context.look.palette.ink);
         style.size = title.size;
-        canvas.text({b->x, b->y + 0.95 * context.letters.title}, title.markup, style);
+        canvas.text({b->x, b->y + 0.95 * context.look.letters.title}, title.markup, style);
     }
     std::vector<const sim::Problem*> problems;
     for (int m = 0; m < context.members(); ++m) problems.push_back(&context.motion(m).problem);
     std::vector<std::string> pieces = common_pieces(problems, setup.units.speed);
-    for (std::string& piece : pieces) piece = context.translate(std::move(piece));
+    for (std::string& piece : pieces) piece = context.look.translate(std::move(piece));
     const ParameterLine line = parameter_line(canvas, places, pieces);
     for (const ParameterLine::Piece& piece : line.pieces)
-        canvas.text(piece.baseline, piece.markup, {.size = line.size, .color = context.palette->muted});
+        canvas.text(piece.baseline, piece.markup, {.size = line.size, .color = context.look.palette.muted});
     if (const auto& b = places.warning; b && !setup.warning.empty())
-        canvas.text({b->right(), b->y + 19 * u}, escaped(context.translate(setup.warning)),
-                    {.size = context.letters.words,
-                     .color = context.palette->muted,
+        canvas.text({b->right(), b->y + 19 * u}, escaped(context.look.translate(setup.warning)),
+                    {.size = context.look.letters.words,
+                     .color = context.look.palette.muted,
                      .align = HAlign::right,
                      .max_width = b->w});
 }
@@ -123,13 +123,13 @@ Film::Film(Film&&) noexcept = default;
 
 Film Film::for_thread() const { return Film(prepared_); }
 int Film::frames() const { return prepared_->context.frames(); }
-double Film::exaggeration() const { return prepared_->context.factor; }
+double Film::exaggeration() const { return prepared_->context.scales.exaggeration; }
 bool Film::exaggeration_reduced() const {
     const FilmContext& context = prepared_->context;
     bool flexible = false;
     for (int m = 0; m < context.members(); ++m)
         flexible = flexible || context.motion(m).problem.beam.model != sim::ModelKind::rigid;
-    return flexible && context.factor < context.setup->view.exaggeration.value_or(1);
+    return flexible && context.scales.exaggeration < context.setup->view.exaggeration.value_or(1);
 }
 bool Film::states_exaggeration() const { return prepared_->clock->states_exaggeration(); }
 bool Film::has_mechanism() const { return prepared_->context.places.first(PanelKind::mechanism) != nullptr; }
@@ -175,7 +175,7 @@ const Image& Film::draw(int frame) {
     copy(prepared_->background, t.picture, t.changed);
     t.moved.clear();
     Canvas canvas(t.picture, t.fonts);
-    canvas.halo_of_all = prepared_->context.palette->halo_of_all();
+    canvas.halo_of_all = prepared_->context.look.palette.halo_of_all();
     canvas.touched = &t.moved;
     prepared_->draw_moving(canvas, frame, prepared_->context.setup->view.style, t.states);
     t.changed.add(t.moved);
@@ -196,7 +196,7 @@ FrameGeometry Film::geometry(int frame) {
     FrameGeometry out{p.context.places, {}, {}, p.background_texts};
     Image scratch = p.background;
     Canvas canvas(scratch, t.fonts);
-    canvas.halo_of_all = p.context.palette->halo_of_all();
+    canvas.halo_of_all = p.context.look.palette.halo_of_all();
     canvas.record = &out.texts;
     p.draw_moving(canvas, frame, Style::flat, t.states);
     if (p.mechanism) {

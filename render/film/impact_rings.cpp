@@ -17,7 +17,7 @@ constexpr std::ptrdiff_t kMostRings = 6;  // at once
 
 // Impacts before the first frame and after the last one have none.
 ImpactRings::ImpactRings(const MechanismView& at) {
-    const std::vector<double>& times = at.context.times;
+    const std::vector<double>& times = at.context.clock.times;
     for (const sim::Impact& impact : at.motion().impacts) {
         const auto first = std::ranges::lower_bound(times, impact.t_start);
         if (first == times.end() || (first == times.begin() && *first > impact.t_start)) continue;
@@ -33,7 +33,7 @@ ImpactRings::ImpactRings(const MechanismView& at) {
 // Rings move with the disc.
 void ImpactRings::draw(const MechanismScene& s) const {
     if (!s.at.problem().cam) return;
-    const std::vector<int>& moved = s.at.context.moved;
+    const std::vector<int>& moved = s.at.context.clock.moved;
     const auto age = [&](const Ring& ring) {  // in lifetimes; a freeze stops it
         return (moved[static_cast<std::size_t>(s.frame)] - moved[static_cast<std::size_t>(ring.frame)]) /
                (kRing * s.at.context.setup->fps);

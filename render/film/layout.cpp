@@ -1,11 +1,14 @@
 #include "render/film/layout.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "render/film/picture_frame.hpp"
 
 namespace beamcam::render {
 namespace {
+
+bool is_tall(int width, int height) { return height > 1.35 * width; }
 
 void place_grid(Layout& out, const LayoutNode& node, const Box& box);
 
@@ -24,7 +27,7 @@ std::vector<LayoutNode> children_that_fit(double unit, const LayoutNode& node, c
             Layout alone;
             alone.unit = unit;
             place_grid(alone, child, {0, 0, rows ? box.w : size, rows ? size : box.h});
-            return alone.panels.empty();
+            return child.kind != LayoutNode::Kind::empty && alone.panels.empty();
         });
         if (narrow == children.rend() || children.size() == 1) return children;
         children.erase(std::next(narrow).base());
@@ -37,6 +40,7 @@ void place_grid(Layout& out, const LayoutNode& node, const Box& box) {
         if (box.w >= least.x * out.unit && box.h >= least.y * out.unit) out.panels.push_back({node.panel, whole(box)});
         return;
     }
+    if (node.kind == LayoutNode::Kind::empty) return;
     const bool rows = node.kind == LayoutNode::Kind::rows;
     const std::vector<LayoutNode> children = children_that_fit(out.unit, node, box);
     const double gap = (rows ? 14 : 30) * out.unit, n = static_cast<double>(children.size());
@@ -58,20 +62,49 @@ const PanelSlot* Layout::first(PanelKind kind) const {
     return at == panels.end() ? nullptr : &*at;
 }
 
+LayoutNode standard_grid(int width, int height, const std::vector<PanelSpec>& side, int members) {
+    using enum LayoutNode::Kind;
+    constexpr int kRowOfMechanisms = 3;  // from this number on mechanisms have the whole width
+    constexpr double kBesideCharts = 1.55, kAboveRow = 1.8, kAboveChart = 0.9;  // shares of the mechanisms
+    const bool beside = is_wide(width, height) && members < kRowOfMechanisms, tall = is_tall(width, height);
+    LayoutNode charts{.kind = beside || tall ? rows : columns};
+    for (const PanelSpec& spec : side) charts.children.push_back({.panel = spec});
+    const auto count = static_cast<double>(std::max<std::size_t>(side.size(), 1));
+    const double share = beside ? kBesideCharts : tall ? kAboveChart * count : kAboveRow;
+    // Cells of mechanisms are about as wide as high.
+    const double part = side.empty() ? 1 : share / (share + 1),
+                 shape = beside ? part * width / height : width / (part * height);
+    const int lines = std::max(1, static_cast<int>(std::lround(std::sqrt(members / shape))));
+    const int across = (members + lines - 1) / lines;
+    LayoutNode mechanisms{.kind = rows, .share = share};
+    for (int first = 0; first < members; first += across) {
+        LayoutNode& row = mechanisms.children.emplace_back(LayoutNode{.kind = columns});
+        for (int m = first; m < first + across; ++m)
+            row.children.push_back(m < members ? LayoutNode{.panel = {.kind = PanelKind::mechanism, .member = m}}
+                                               : LayoutNode{.kind = empty});
+    }
+    LayoutNode grid{.kind = beside ? columns : rows, .children = {std::move(mechanisms)}};
+    if (!side.empty()) grid.children.push_back(std::move(charts));
+    return grid;
+}
+
 Layout layout(int width, int height, const LayoutNode& user_grid, const Shown& shown) {
-    PictureFrame f = picture_frame(width, height, false, shown);
+    PictureFrame f = picture_frame(width, height, shown);
     LayoutNode grid = user_grid;
     // Columns of a wide picture become rows in a portrait one.
-    if (grid.kind == LayoutNode::Kind::columns && height > 1.35 * width) {
+    if (grid.kind == LayoutNode::Kind::columns && is_tall(width, height)) {
         grid.kind = LayoutNode::Kind::rows;
         // A stack of three panels needs a larger share of the height than of the width.
         for (LayoutNode& child : grid.children)
             if (child.kind == LayoutNode::Kind::rows)
                 child.share *= std::max(1.0, 0.7 * static_cast<double>(child.children.size()));
     }
-    place_grid(f.out, grid, {f.margin, f.top, f.right - f.margin, f.bottom - f.top});
+    const Box room{f.margin, f.top, f.right - f.margin, f.bottom - f.top};
+    place_grid(f.out, grid, room);
     // A picture too small for any panel of the grid shows the mechanism.
-    if (f.out.panels.empty()) return layout(width, height, std::vector<PanelSpec>{}, 1, {}, shown);
+    if (f.out.panels.empty())
+        f.out.panels.push_back({{.kind = PanelKind::mechanism},
+                                whole(room.w < 8 || room.h < 8 ? Box{0, 0, double(width), double(height)} : room)});
     return std::move(f.out);
 }
 
@@ -83,9 +116,9 @@ std::vector<PanelSpec> panels_of(const LayoutNode& grid) {
     return out;
 }
 
-std::vector<PanelSpec> omitted_panels(int width, int height, const LayoutNode& user_grid, const Shown& shown) {
-    std::vector<PanelSpec> out = panels_of(user_grid);
-    for (const PanelSlot& slot : layout(width, height, user_grid, shown).panels)
+std::vector<PanelSpec> omitted_panels(int width, int height, const LayoutNode& grid, const Shown& shown) {
+    std::vector<PanelSpec> out = panels_of(grid);
+    for (const PanelSlot& slot : layout(width, height, grid, shown).panels)
         if (const auto placed = std::ranges::find(out, slot.spec); placed != out.end()) out.erase(placed);
     return out;
 }

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "render/draw/geometry.hpp"
-#include "render/film/view_extent.hpp"
 #include "sim/observe/channels.hpp"
 
 namespace beamcam::render {
@@ -33,9 +32,9 @@ struct PanelSpec {
     bool operator==(const PanelSpec&) const = default;
 };
 
-// A grid: a panel, or rows or columns of smaller grids that divide the space by their shares.
+// A grid: a panel, rows or columns of smaller grids that divide the space by their shares, or nothing.
 struct LayoutNode {
-    enum class Kind { panel, rows, columns };
+    enum class Kind { panel, rows, columns, empty };
     Kind kind = Kind::panel;
     double share = 1;  // > 0, relative to its siblings
     PanelSpec panel = {};
@@ -80,27 +79,15 @@ struct Layout {
     const PanelSlot* first(PanelKind kind) const;
 };
 
-// Position of the side panels in the standard layout: stacked at the right, side by side below the mechanism, or
-// stacked below it.
-enum class Arrangement { alone, column, row, stack };
-
-// The standard layout of a picture, width, height >= 1: the mechanisms (one for each of `members` motions, or a single
-// one with ghosts), and as many `side` panels, the most important first, as stay readable. It chooses the arrangement
-// that gives the mechanisms the largest scale for their `extent`; panels get the space that is left. The box of the
-// parameters depends on size and `members` only, so that its content is known before the simulation.
-Layout layout(int width, int height, const std::vector<PanelSpec>& side, int members = 1, const ViewExtent& extent = {},
-              const Shown& shown = {});
-// The standard layout with this arrangement; none if the picture is too small for it.
-std::optional<Layout> arranged(Arrangement how, int width, int height, const std::vector<PanelSpec>& side, int members,
-                               const ViewExtent& extent, const Shown& shown = {});
-// Scale of the smallest mechanism; 0 without one [px/m].
-double scale_of(const Layout& layout, const ViewExtent& extent);
-// The layout of a user's grid, without the panels that are too small to read. In a portrait picture the outermost
-// columns become rows.
-Layout layout(int width, int height, const LayoutNode& user_grid, const Shown& shown = {});
+// The standard grid: the mechanisms, one for each of `members` motions or a single one with ghosts, and the `side`
+// panels, the most important first: beside up to two mechanisms in a wide picture, else below them.
+LayoutNode standard_grid(int width, int height, const std::vector<PanelSpec>& side, int members = 1);
+// The layout of a picture, width, height >= 1, without the panels that are too small to read. In a portrait picture the
+// outermost columns become rows.
+Layout layout(int width, int height, const LayoutNode& grid, const Shown& shown = {});
 // All panels of a grid in reading order; those that are too small to read.
 std::vector<PanelSpec> panels_of(const LayoutNode& grid);
-std::vector<PanelSpec> omitted_panels(int width, int height, const LayoutNode& user_grid, const Shown& shown = {});
+std::vector<PanelSpec> omitted_panels(int width, int height, const LayoutNode& grid, const Shown& shown = {});
 
 // The rectangle of the axes in a panel's box, which leaves space for heading and axis labels of size `words`; whole
 // pixels.

@@ -12,7 +12,7 @@ namespace {
 
 using std::numbers::pi;
 
-double letter_size(const MechanismView& at) { return at.context.letters.heading; }
+double letter_size(const MechanismView& at) { return at.context.look.letters.heading; }
 
 // A letter that belongs to `owner` is drawn while that is in the view, and stays inside the view [px].
 void draw_letter(const MechanismScene& s, Vec2 owner, Vec2 middle, const char* markup, Color color) {
@@ -118,7 +118,8 @@ void draw_force(const MechanismScene& s) {
     const std::optional<ForceArrow> arrow = force_arrow_of(s.pose, s.beam);
     if (!arrow) return;
     const double marks = s.at.marks, depth = s.at.look.depth * s.at.look.camera.scale;
-    const double length = force_arrow_length(std::min(1.0, arrow->force / s.at.context.frame_force), s.at.small, marks);
+    const double length =
+        force_arrow_length(std::min(1.0, arrow->force / s.at.context.scales.arrow_force), s.at.small, marks);
     const Color color = s.at.palette.contact;
     const Vec2 flat_foot = s.at.px(arrow->foot), n{arrow->normal.x, -arrow->normal.y}, foot = s.on(flat_foot);
     s.canvas.circle(foot, 5 * marks);

@@ -38,7 +38,7 @@ MechanismLegend::MechanismLegend(const MechanismView& at) : at_(at) {
 // Mechanisms beside each other have letters of one size, that of the longest name.
 void MechanismLegend::fit_names(const Canvas& canvas) {
     const FilmContext& context = at_.context;
-    size_ = context.letters.heading;
+    size_ = context.look.letters.heading;
     const auto width = [&](const std::string& name) {
         return canvas.measure(text_markup(name), name_style(at_, size_)).w;
     };
@@ -68,7 +68,7 @@ void MechanismLegend::draw(Canvas& canvas, const MechanismView& at) const {
 void MechanismLegend::scale_bar(Canvas& canvas, const MechanismView& at) const {
     const double length = round_down_125(0.17 * at.box.w / at.look.camera.scale);  // [m]
     const double w = length * at.look.camera.scale, u = at_.unit;
-    const TextStyle style{.size = at_.context.letters.words,
+    const TextStyle style{.size = at_.context.look.letters.words,
                           .color = at_.palette.muted,
                           .align = HAlign::centre,
                           .halo = at_.palette.paper};

@@ -15,7 +15,7 @@ static void name_base_line(const MechanismScene& s, const std::vector<Vec2>& lin
     const FilmSetup& setup = *s.at.context.setup;
     const bool slow = setup.speeds.empty() ? setup.frames() == 1 : setup.speeds[std::size_t(s.frame)] <= kSlow;
     if (!slow || !s.at.labelled() || s.at.ghosts) return;
-    const double size = s.at.context.letters.words;
+    const double size = s.at.context.look.letters.words;
     const Box inside = s.at.box.inset(1.6 * size);
     std::size_t last = line.size();  // the point nearest to the tip that is drawn and in the view
     for (std::size_t i = 0; i < line.size(); ++i)
@@ -23,7 +23,7 @@ static void name_base_line(const MechanismScene& s, const std::vector<Vec2>& lin
     if (last == line.size()) return;
     if (s.px(s.beam.back(last)).y < line[last].y + 0.2 * size || s.px(s.beam.face(last)).y < line[last].y + 0.2 * size)
         return;
-    s.canvas.text(line[last] - Vec2{0.4 * size, 0.5 * size}, s.at.context.translate("undeflected"),
+    s.canvas.text(line[last] - Vec2{0.4 * size, 0.5 * size}, s.at.context.look.translate("undeflected"),
                   {.size = size, .color = s.at.palette.muted, .align = HAlign::right});
 }
 

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "render/film/mechanism_labels.hpp"
 #include "render/film/mechanism_marks.hpp"
-#include "render/film/offscreen.hpp"
 #include "render/mechanism/cam_outline.hpp"
 
 namespace beamcam::render {
@@ -32,32 +30,18 @@ struct MechanismPanel::ThreadState final : FilmPanel::State {
     }
     Trace trace;
     BodyPicture bodies;
-    Offscreen seen;  // view of a moving camera
 };
 
 MechanismPanel::MechanismPanel(const FilmContext& context, const PanelSlot& slot)
-    : at_(context, slot), legend_(at_), cameras_(at_), rings_(at_) {
+    : at_(context, slot), legend_(at_), cameras_(at_), tip_path_(at_), rings_(at_) {
     std::vector<Followed> followed;
     for (int k = 0; k < context.frames(); ++k) {
         const auto [pose, drawn, shape] = at_.drawn_frame(k);
-        const Vec2 tip = (shape.face.back() + shape.back.back()) * 0.5, at_tip = at_.look.camera.to_world(tip);
-        add_tips_before(k);
-        tip_path_.add_frame({pose.t, tip, pose.theta});
+        const Vec2 tip = at_.look.camera.to_world((shape.face.back() + shape.back.back()) * 0.5);
         followed.push_back(
-            {at_tip, drawn.contact ? drawn.contact->on_disc : at_tip, at_.problem().cam ? pose.cam_centre : Vec2{}});
+            {tip, drawn.contact ? drawn.contact->on_disc : tip, at_.problem().cam ? pose.cam_centre : Vec2{}});
     }
-    tip_path_.complete(at_);
     cameras_.follow(followed);
-}
-
-// Between the previous frame and this one.
-void MechanismPanel::add_tips_before(int frame) {
-    if (frame == 0) return;
-    const std::vector<sim::Pose>& path = at_.motion().path;
-    const double from = at_.context.at(frame - 1), to = at_.context.at(frame);
-    for (auto pose = std::ranges::upper_bound(path, from, {}, &sim::Pose::t); pose != path.end() && pose->t < to;
-         ++pose)
-        tip_path_.add_between_frames(knot_of(at_, *pose));
 }
 
 std::unique_ptr<FilmPanel::State> MechanismPanel::make_state() const {
@@ -129,11 +113,11 @@ void MechanismPanel::draw(Canvas& canvas, int frame, Style style, State* state) 
     auto& threads = *static_cast<ThreadState*>(state);
     if (!cameras_.near()) return draw_moving(canvas, at_, frame, style, threads);
     const MechanismView at = cameras_.view(frame);
-    threads.seen.put(canvas, at.box, [&](Canvas& inside) {
-        draw_still(inside, at);
-        draw_moving(inside, at, frame, style, threads);
-        fade_edges(inside, at);
-        legend_.draw(inside, at);
+    canvas.clip(at.box, [&] {
+        draw_still(canvas, at);
+        draw_moving(canvas, at, frame, style, threads);
+        fade_edges(canvas, at);
+        legend_.draw(canvas, at);
     });
 }
 
@@ -152,7 +136,7 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
         draw_angle(s);
         draw_cam_speed(s);
     }
-    tip_path_.draw_trail(s, at_);
+    tip_path_.draw_trail(s);
     draw_bodies(s, style, threads);
     draw_beam_trace(s, threads.trace);
     if (at.ghosts) draw_ghost_outlines(s);

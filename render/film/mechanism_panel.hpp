@@ -31,7 +31,6 @@ class MechanismPanel final : public FilmPanel {
     void draw_still(Canvas& canvas, const MechanismView& at) const;
     void draw_bodies(const MechanismScene& s, Style style, ThreadState& threads) const;
     void draw_moving(Canvas& canvas, const MechanismView& at, int frame, Style style, ThreadState& threads) const;
-    void add_tips_before(int frame);
 
     MechanismView at_;
     MechanismLegend legend_;

@@ -8,17 +8,17 @@
 namespace beamcam::render {
 MechanismView::MechanismView(const FilmContext& all, const PanelSlot& slot)
     : context(all),
-      palette(*all.palette),
+      palette(all.look.palette),
       box(slot.box),
       member(std::min(slot.spec.member, all.members() - 1)),
       ghosts(all.members() > 1 && all.setup->comparison == Comparison::ghosts),
-      unit(all.unit),
-      small(is_small(slot.box, all.unit)),
+      unit(all.look.unit),
+      small(is_small(slot.box, all.look.unit)),
       whole(slot.spec.kind == PanelKind::overview) {
     // Several mechanisms have the same scale, so that they can be compared.
     look.unit = unit;
-    look.factor = all.factor;
-    look.moment_scale = all.moment_scale;
+    look.factor = all.scales.exaggeration;
+    look.moment_scale = all.scales.moment;
     const bool measured = member == 0 && std::ranges::any_of(all.setup->data, [](const FilmData& data) {
                               return data.find({sim::ChannelKind::theta, 0}) != nullptr;
                           });

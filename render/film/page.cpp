@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <iterator>
 #include <map>
-#include <numbers>
 #include <optional>
 
 #include "render/film/mechanism_labels.hpp"
@@ -26,7 +25,6 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "the page's numbers are little-endian");
 
 constexpr std::size_t kStations = 25;  // of the stored polyline
-constexpr double kFullTurn = std::numbers::pi * 2;
 
 // The stored data of one instant.
 struct Instant {
@@ -36,7 +34,7 @@ struct Instant {
 
 Instant instant_of(const FilmContext& context, int frame, double depth, double& thickness) {
     const sim::Pose pose = context.pose(0, frame);
-    const DrawnBeam beam = drawn_beam(context.motion(0).problem, pose, context.factor, depth);
+    const DrawnBeam beam = drawn_beam(context.motion(0).problem, pose, context.scales.exaggeration, depth);
     thickness = beam.high - beam.low;
     Instant out{pose.t, pose.theta, pose.cam_angle, pose.nearest ? pose.nearest->force : 0, {}};
     const std::size_t last = beam.line.size() - 1, stations = std::min(kStations, last + 1);
@@ -125,16 +123,16 @@ std::string trace_json(const FilmContext& context) {
     }
     std::vector<std::string> out;
     for (const Place& p : places)
-        out.push_back(
-            fmt::format("[{:.6g},{},{}]", p.t, p.at,
-                        css(force_color(*context.palette, std::sqrt(std::min(1.0, p.force / context.force_scale))))));
+        out.push_back(fmt::format(
+            "[{:.6g},{},{}]", p.t, p.at,
+            css(force_color(context.look.palette, std::sqrt(std::min(1.0, p.force / context.scales.force))))));
     return fmt::format("[{}]", fmt::join(out, ","));
 }
 
 std::string impacts_json(const FilmContext& context) {
     std::vector<std::string> out;
     for (const sim::Impact& i : context.motion(0).impacts)
-        if (i.t_start >= context.span.low && i.t_start <= context.span.high)
+        if (i.t_start >= context.clock.span.low && i.t_start <= context.clock.span.high)
             out.push_back(fmt::format("{:.9g}", i.t_start));
     return fmt::format("[{}]", fmt::join(out, ","));
 }
@@ -219,7 +217,7 @@ std::string html_page(const FilmSetup& setup) {
     std::vector<Instant> all;
     for (int k = 0; k < context.frames(); ++k) all.push_back(instant_of(context, k, depth, thickness));
     add_ends_of_contacts(context, all);
-    const Palette& p = *context.palette;
+    const Palette& p = context.look.palette;
     const std::string colors = fmt::format(
         R"({{"paper":{},"ink":{},"muted":{},"faint":{},"grid":{},"motion":{},"contact":{},"steel":{},"edge":{},"beam":{}}})",
         css(p.paper), css(p.ink), css(p.muted), css(p.faint), css(p.grid), css(p.motion), css(p.contact), css(p.steel),
@@ -227,9 +225,9 @@ std::string html_page(const FilmSetup& setup) {
     const std::string data = fmt::format(
         R"({{"title":{},"factor":{:.9g},"tolerance":{:.9g},"length":{:.9g},"thickness":{:.9g},"hub":{:.9g},"arc":{:.9g},"force":{:.9g},)"
         R"("degrees":{},"colors":{},"cam":{},"impacts":{},{}}})",
-        json_text(plain_text(setup.title)), context.factor, kPageTolerance * length, length, thickness,
-        problem.hub.radius, arc_radius(problem), context.frame_force, setup.units.degrees, colors, cam_json(context),
-        impacts_json(context), numbers_json(thinned_instants(std::move(all), length)));
+        json_text(plain_text(setup.title)), context.scales.exaggeration, kPageTolerance * length, length, thickness,
+        problem.hub.radius, arc_radius(problem), context.scales.arrow_force, setup.units.degrees, colors,
+        cam_json(context), impacts_json(context), numbers_json(thinned_instants(std::move(all), length)));
     const Lang lang = setup.view.lang;
     return filled(player_html(), {{"LANG", lang == Lang::en ? "en" : "zh"},
                                   {"MECHANISM", phrase(lang, "The mechanism")},

@@ -91,43 +91,57 @@ const PanelType& type_of(PanelKind kind) { return *std::ranges::find(panel_types
 
 FilmContext::FilmContext(std::shared_ptr<const FilmSetup> s) : setup(std::move(s)) {
     check();
-    colors = render::palette(setup->view.theme);
-    if (setup->view.paper) colors = on_paper(colors, rgb(*setup->view.paper));
-    if (setup->view.transparent) colors = colors.without_paper();
-    palette = &colors;
-    Shown shown = setup->view.show;
-    shown.title = shown.title && !setup->title.empty();
-    shown.warning = shown.warning && !setup->warning.empty();
-    shown.captions = !setup->callouts.empty();
+    for (int m = 0; m < members(); ++m) {
+        samples.push_back(contact_samples(motion(m).trace, motion(m).impacts));
+        labels.push_back(text_markup(motion(m).label));
+    }
+    for (const FilmData& each : setup->data) data_labels.push_back(text_markup(each.label));
+    choose_look();
+    read_clock();
+    choose_scales();
+    place_panels();
+    fonts = std::make_unique<const Fonts>(look.cjk);
+    ++counts->font_sets;
+}
+
+void FilmContext::choose_look() {
+    look.palette = render::palette(setup->view.theme);
+    if (setup->view.paper) look.palette = on_paper(look.palette, rgb(*setup->view.paper));
+    if (setup->view.transparent) look.palette = look.palette.without_paper();
+    look.lang = setup->view.lang;
     std::string written = setup->title + setup->warning;
     for (const Callout& c : setup->callouts) written += c.text;
     for (int m = 0; m < members(); ++m) written += motion(m).label;
     for (const FilmData& each : setup->data) written += each.label;
-    cjk = setup->view.lang == Lang::zh || needs_cjk(written);
-    for (int m = 0; m < members(); ++m) samples.push_back(contact_samples(motion(m).trace, motion(m).impacts));
-    fonts = std::make_unique<const Fonts>(cjk);
-    ++counts->font_sets;
-    for (int m = 0; m < members(); ++m) labels.push_back(text_markup(motion(m).label));
-    for (const FilmData& each : setup->data) data_labels.push_back(text_markup(each.label));
+    look.cjk = look.lang == Lang::zh || needs_cjk(written);
+}
+
+void FilmContext::read_clock() {
     for (std::size_t k = 0; k < setup->frames(); ++k) {
-        times.push_back(setup->time(k));
-        moved.push_back(k == 0 ? 0 : moved[k - 1] + (times[k] > times[k - 1] ? 1 : 0));
+        clock.times.push_back(setup->time(k));
+        clock.moved.push_back(k == 0 ? 0 : clock.moved[k - 1] + (clock.times[k] > clock.times[k - 1] ? 1 : 0));
     }
-    choose_scales();
-    const int mechanisms = setup->comparison == Comparison::panels ? members() : 1;
-    if (setup->layout) places = layout(setup->width, setup->height, *setup->layout, shown);
-    if (!setup->layout || places.first(PanelKind::mechanism) || places.first(PanelKind::overview))
-        extent = view_extent_of(*this);
-    if (!setup->layout) places = layout(setup->width, setup->height, standard(*setup), mechanisms, extent, shown);
-    unit = places.unit;
-    letters = places.letters;
-    span = {times.front(), times.back()};
+    clock.span = {clock.times.front(), clock.times.back()};
     if (const auto* t = column(setup->chart, {ChannelKind::t, 0}); t && !t->empty()) {
-        span.low = std::min(span.low, *std::ranges::min_element(*t));
-        span.high = std::max(span.high, *std::ranges::max_element(*t));
+        clock.span.low = std::min(clock.span.low, *std::ranges::min_element(*t));
+        clock.span.high = std::max(clock.span.high, *std::ranges::max_element(*t));
     }
-    time = time_format(times, span.high);
-    if (!(span.high > span.low)) span.high = span.low + time.unit;  // a single instant
+    clock.format = time_format(clock.times, clock.span.high);
+    if (!(clock.span.high > clock.span.low)) clock.span.high = clock.span.low + clock.format.unit;  // a single instant
+}
+
+void FilmContext::place_panels() {
+    Shown shown = setup->view.show;
+    shown.title = shown.title && !setup->title.empty();
+    shown.captions = !setup->callouts.empty();
+    shown.warning = shown.warning && !setup->warning.empty();
+    const int width = setup->width, height = setup->height;
+    const int mechanisms = setup->comparison == Comparison::panels ? members() : 1;
+    places = layout(width, height,
+                    setup->layout ? *setup->layout : standard_grid(width, height, standard(*setup), mechanisms), shown);
+    look.unit = places.unit;
+    look.letters = places.letters;
+    if (places.first(PanelKind::mechanism) || places.first(PanelKind::overview)) extent = view_extent_of(*this);
 }
 
 SpeedUnit Units::speed_in_charts() const {
@@ -161,7 +175,7 @@ double FilmContext::measured_angle(std::size_t k, double t) const {
 bool FilmContext::names_in_panels() const {
     std::ptrdiff_t named = 0;
     for (const PanelSlot& slot : places.panels)
-        if (slot.spec.kind == PanelKind::mechanism && has_names(slot.box, unit)) ++named;
+        if (slot.spec.kind == PanelKind::mechanism && has_names(slot.box, look.unit)) ++named;
     return named >= (setup->comparison == Comparison::ghosts ? 1 : members());
 }
 
@@ -194,26 +208,27 @@ void FilmContext::check() const {
 sim::Pose FilmContext::pose(int member, int frame) const {
     constexpr double kForceRounding = 1e-9;  // of the film's largest force
     sim::Pose out = motion(member).pose(static_cast<std::size_t>(frame));
-    if (out.nearest && out.nearest->force < kForceRounding * largest_force)
+    if (out.nearest && out.nearest->force < kForceRounding * scales.largest_force)
         out.nearest->force = out.nearest->friction = 0;
     return out;
 }
 
 void FilmContext::choose_scales() {
     double moment = 0, force = 0;
-    factor = std::numeric_limits<double>::infinity();
+    scales.exaggeration = std::numeric_limits<double>::infinity();
     for (int m = 0; m < members(); ++m) {
         const Motion& one = motion(m);
         const bool flexible = one.problem.beam.model != sim::ModelKind::rigid;
         // A rigid beam among flexible ones does not limit their exaggeration.
         if (flexible || members() == 1) {
-            factor = std::min(factor, film_factor(
-                                          one.problem, one.surveyed(), [&](std::size_t k) { return one.surveyed(k); },
-                                          setup->view.exaggeration));
-            // The survey may miss an instant that requires a smaller factor; frames must not.
+            scales.exaggeration = std::min(
+                scales.exaggeration, film_factor(
+                                         one.problem, one.surveyed(), [&](std::size_t k) { return one.surveyed(k); },
+                                         setup->view.exaggeration));
+            // The survey may miss an instant that requires a smaller scales.exaggeration; frames must not.
             if (!one.survey.empty())
-                factor = clear_factor(
-                    one.problem, one.frames(), [&](std::size_t k) { return one.pose(k); }, factor);
+                scales.exaggeration = clear_factor(
+                    one.problem, one.frames(), [&](std::size_t k) { return one.pose(k); }, scales.exaggeration);
         }
         double largest = 0;
         for (std::size_t k = 0; k < one.surveyed(); ++k) {
@@ -225,15 +240,15 @@ void FilmContext::choose_scales() {
         const double negligible = 1e-9 * one.problem.beam.bending_stiffness() / one.problem.beam.length;
         if (flexible && largest > negligible) moment = std::max(moment, largest);
     }
-    if (!std::isfinite(factor)) factor = 1;
-    frame_force = force;
+    if (!std::isfinite(scales.exaggeration)) scales.exaggeration = 1;
+    scales.arrow_force = force;
     for (int m = 0; m < members(); ++m) {
         for (const TraceSample& s : samples[static_cast<std::size_t>(m)]) force = std::max(force, s.force);
         for (const sim::Impact& i : motion(m).impacts) force = std::max(force, i.force_peak.value_or(0));
     }
-    if (moment > 0) moment_scale = round_up_125(moment);
-    largest_force = force;
-    if (force > 0) force_scale = round_up_125(force);
+    if (moment > 0) scales.moment = round_up_125(moment);
+    scales.largest_force = force;
+    if (force > 0) scales.force = round_up_125(force);
 }
 
 const std::vector<double>* column(const sim::Table& table, Channel channel) {
@@ -256,9 +271,9 @@ std::string motion_suffix(const FilmContext& context, int member) {
 }
 
 void draw_heading(Canvas& canvas, const FilmContext& context, const Box& box, const std::string& markup) {
-    canvas.text({box.x, box.y + 26 * context.unit}, markup,
-                {.size = context.letters.heading,
-                 .color = context.palette->ink,
+    canvas.text({box.x, box.y + 26 * context.look.unit}, markup,
+                {.size = context.look.letters.heading,
+                 .color = context.look.palette.ink,
                  .weight = Weight::semibold,
                  .max_width = box.w});
 }
@@ -266,17 +281,17 @@ void draw_heading(Canvas& canvas, const FilmContext& context, const Box& box, co
 void stroke_places(Canvas& canvas, const FilmContext& context, const std::vector<float>& places, double width,
                    const std::function<void(std::size_t)>& path) {
     constexpr int kShades = 12;
-    if (!(context.force_scale > 0)) return;
+    if (!(context.scales.force > 0)) return;
     std::array<std::vector<std::size_t>, kShades> shade;
     for (std::size_t i = 0; i < places.size(); ++i)
         if (places[i] > 0) {
-            const double share = std::sqrt(std::min(1.0, double(places[i]) / context.force_scale));
+            const double share = std::sqrt(std::min(1.0, double(places[i]) / context.scales.force));
             shade[static_cast<std::size_t>(std::min(kShades - 1.0, std::floor(share * kShades)))].push_back(i);
         }
     for (int k = 0; k < kShades; ++k) {
         if (shade[static_cast<std::size_t>(k)].empty()) continue;
         for (std::size_t i : shade[static_cast<std::size_t>(k)]) path(i);
-        canvas.stroke({force_color(*context.palette, (k + 0.5) / kShades), width, {}, Cap::butt});
+        canvas.stroke({force_color(context.look.palette, (k + 0.5) / kShades), width, {}, Cap::butt});
     }
 }
 

@@ -10,12 +10,41 @@
 
 #include "render/draw/canvas.hpp"
 #include "render/film/film.hpp"
+#include "render/film/view_extent.hpp"
 #include "render/mechanism/trace.hpp"
 #include "render/plot/labels.hpp"
 #include "render/plot/style.hpp"
 #include "render/plot/ticks.hpp"
 
 namespace beamcam::render {
+
+// The time of a film: the instants of its frames, and what its charts show.
+struct FilmClock {
+    std::vector<double> times;  // of the frames, the same for all motions [s]
+    std::vector<int> moved;     // for each frame, the number up to it in which time moved
+    Range span;                 // from the first to the last instant of frames and charts [s]
+    TimeFormat format;
+    double at(int frame) const { return times[static_cast<std::size_t>(frame)]; }  // [s]
+};
+
+// The scales that all motions of a film share.
+struct FilmScales {
+    double exaggeration = 1;   // of deflection
+    double largest_force = 0;  // of the film [N]
+    double force = 0;          // end of the colour scale: the largest force, rounded up; 0: no force [N]
+    double arrow_force = 0;    // largest force of all frames, that of the longest arrow [N]
+    double moment = 0;         // end of the colour scale; 0: no colouring [N m]
+};
+
+// Colours, sizes and language of a film.
+struct FilmLook {
+    Palette palette;
+    Lang lang = Lang::en;
+    bool cjk = false;  // some text needs the Chinese font
+    double unit = 1;   // [px] of one design pixel
+    Letters letters;
+    std::string translate(std::string english) const { return in(lang, std::move(english)); }
+};
 
 // Everything that the panels of a film share. Created once, constant while frames are drawn.
 struct FilmContext {
@@ -24,29 +53,17 @@ struct FilmContext {
     FilmContext& operator=(const FilmContext&) = delete;
 
     std::shared_ptr<const FilmSetup> setup;
-    Palette colors;
-    const Palette* palette = nullptr;  // points to `colors`
-    bool cjk = false;                  // some text needs the Chinese font
+    FilmLook look;
+    FilmClock clock;
+    FilmScales scales;
     Layout places;
-    double unit = 1;  // [px] of one design pixel
-    Letters letters;
-    TimeFormat time;
-    double factor = 1;                              // exaggeration of deflection, the same for all motions
-    double largest_force = 0;                       // of the film [N]
-    double force_scale = 0;                         // largest force of the film, rounded up; 0: no force [N]
-    double frame_force = 0;                         // largest force of all frames, that of the longest arrow [N]
-    double moment_scale = 0;                        // end of the colour scale; 0: no colouring [N m]
     ViewExtent extent;                              // of all mechanisms
-    std::vector<double> times;                      // of the frames, the same for all motions [s]
-    std::vector<int> moved;                         // for each frame, the number up to it in which time moved
-    Range span;                                     // time from the first to the last instant of frames and charts [s]
     std::vector<std::vector<TraceSample>> samples;  // for each motion
     std::shared_ptr<DrawingCounts> counts = std::make_shared<DrawingCounts>();
     std::vector<std::string> labels;  // labels of the motions, markup
     std::vector<std::string> data_labels;
     std::unique_ptr<const Fonts> fonts;  // only while the film is being prepared
 
-    std::string translate(std::string english) const { return in(setup->view.lang, std::move(english)); }
     int frames() const { return static_cast<int>(setup->frames()); }
     int members() const { return 1 + static_cast<int>(setup->others.size()); }
     const Motion& motion(int member) const {
@@ -55,12 +72,11 @@ struct FilmContext {
     sim::Pose pose(int member, int frame) const;  // without forces that are rounding
     // For a motion without a cam: one that has a cam, whose section position the drawing takes over. Otherwise null.
     const sim::Problem* section_reference(int member) const;
-    double at(int frame) const { return times[static_cast<std::size_t>(frame)]; }  // [s]
     // Factor from SI to the unit in which a channel is displayed, and that unit.
     double shown_factor(sim::Channel channel) const;
     std::string shown_unit(sim::Channel channel) const;
     // Colour of a motion: the first one has the palette's colour of motion.
-    Color member_color(int member) const { return series_color(*palette, static_cast<std::size_t>(member)); }
+    Color member_color(int member) const { return series_color(look.palette, static_cast<std::size_t>(member)); }
     // Dashes distinguish curves for viewers with a colour deficiency [design px].
     static std::vector<double> dash_of(std::size_t curve) {
         return curve % 3 == 1   ? std::vector<double>{9, 4}
@@ -69,13 +85,18 @@ struct FilmContext {
     }
     bool names_in_panels() const;  // the names of compared motions are beside their mechanisms
     // Far from the colours of motions, and bright on dark paper.
-    Color data_color(std::size_t k) const { return series_color(*palette, (palette->paper.g < 0.5 ? 5 : 7) - k % 3); }
+    Color data_color(std::size_t k) const {
+        return series_color(look.palette, (look.palette.paper.g < 0.5 ? 5 : 7) - k % 3);
+    }
     // Hub angle in data set k at time t, by linear interpolation; NaN where it has none [rad].
     double measured_angle(std::size_t k, double t) const;
 
   private:
     void check() const;
+    void choose_look();
+    void read_clock();
     void choose_scales();
+    void place_panels();
 };
 
 using sim::kNan;

@@ -47,13 +47,12 @@ ParameterLine parameter_line(const Canvas& canvas, const Layout& places, const s
     return out;
 }
 
-std::vector<std::string> omitted_text(int width, int height, const std::optional<LayoutNode>& grid, int members,
+std::vector<std::string> omitted_text(int width, int height, const std::optional<LayoutNode>& grid,
                                       const std::string& title, const std::vector<const sim::Problem*>& problems,
                                       const Shown& asked, SpeedUnit unit) {
     Shown shown = asked;
     shown.title = shown.title && !title.empty();
-    const Layout places = grid ? layout(width, height, *grid, shown)
-                               : layout(width, height, std::vector<PanelSpec>{}, members, {}, shown);
+    const Layout places = layout(width, height, grid.value_or(LayoutNode{}), shown);
     std::vector<std::string> out;
     std::vector<std::string> missing;
     if (shown.parameters) missing = common_pieces(problems, unit);

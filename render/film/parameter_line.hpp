@@ -31,10 +31,10 @@ ParameterLine parameter_line(const Canvas& canvas, const Layout& places, const s
 TextStyle title_style(const Letters& letters, Color color = {});
 FittedText fitted_title(const Canvas& canvas, const std::string& title, const Box& box, const Letters& letters);
 
-// The texts for which a picture of this size, with this layout or the standard one of `members` mechanisms, has no
-// space: "the title" or "the end of the title", parameters, "colour scales". Loads fonts, unless there is no space for
-// title and parameters. Throws FontError.
-std::vector<std::string> omitted_text(int width, int height, const std::optional<LayoutNode>& layout, int members,
+// The texts for which a picture of this size, with this layout or the standard one, has no space: "the title" or "the
+// end of the title", parameters, "colour scales". Loads fonts, unless there is no space for title and parameters.
+// Throws FontError.
+std::vector<std::string> omitted_text(int width, int height, const std::optional<LayoutNode>& layout,
                                       const std::string& title, const std::vector<const sim::Problem*>& problems,
                                       const Shown& shown = {}, SpeedUnit unit = {});
 

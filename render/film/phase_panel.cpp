@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <span>
 
-#include "render/draw/smooth_path.hpp"
 #include "render/film/chart_panel.hpp"
 #include "render/plot/channel_label.hpp"
 
@@ -49,15 +48,15 @@ class PhasePanel final : public FilmPanel {
         axes_.x = axis(all.x0, all.x1, "$θ$", ChannelKind::theta, x_factor_);
         axes_.y = axis(all.y0, all.y1, "d$θ$/d$t$", ChannelKind::theta_dot, y_factor_);
         Image none(1, 1);
-        plot_.place(Canvas(none, *context.fonts), plot_area(slot.box, context.unit, context.letters.words));
+        plot_.place(Canvas(none, *context.fonts), plot_area(slot.box, context.look.unit, context.look.letters.words));
         for (int m = 0; m < context.members(); ++m) paths_.push_back(path(m));
     }
 
     void draw_background(Canvas& canvas) const override {
-        const double u = context_.unit;
+        const double u = context_.look.unit;
         const std::string name = plot_.y().name(),
                           words = heading(ChannelKind::theta_dot, context_.setup->view.lang) + name;
-        const TextStyle heading{.size = context_.letters.heading, .weight = Weight::semibold};
+        const TextStyle heading{.size = context_.look.letters.heading, .weight = Weight::semibold};
         const Box& plot = plot_.box();
         draw_heading(canvas, context_, {plot.x, box_.y, plot.w, plot.h},
                      first_that_fits(canvas, {words, name}, heading, plot.w));
@@ -65,27 +64,27 @@ class PhasePanel final : public FilmPanel {
         plot_.draw_x_axis(canvas);
         for (std::size_t m = 0; m < paths_.size(); ++m) {
             canvas.polyline(paths_[m].points);
-            canvas.stroke({context_.palette->tint(color(m), 0.22), 1.0 * u});
+            canvas.stroke({context_.look.palette.tint(color(m), 0.22), 1.0 * u});
         }
     }
 
     void draw(Canvas& canvas, int frame, Style, State*) const override {
         for (std::size_t m = 0; m < paths_.size(); ++m) {
             const auto& [times, points] = paths_[m];
-            const auto past = std::ranges::upper_bound(times, context_.at(frame)) - times.begin();
+            const auto past = std::ranges::upper_bound(times, context_.clock.at(frame)) - times.begin();
             canvas.polyline(std::span(points).first(static_cast<std::size_t>(past)));
-            canvas.stroke({color(m), 1.3 * context_.unit});
+            canvas.stroke({color(m), 1.3 * context_.look.unit});
         }
         for (std::size_t m = 0; m < paths_.size(); ++m) {
             const sim::Pose& pose = context_.pose(static_cast<int>(m), frame);
-            canvas.circle(to_pixels(pose.theta, pose.theta_dot), 6 * context_.unit);
+            canvas.circle(to_pixels(pose.theta, pose.theta_dot), 6 * context_.look.unit);
             canvas.fill_keeping_path(color(m));
-            canvas.stroke({context_.palette->paper, 1.6 * context_.unit});
+            canvas.stroke({context_.look.palette.paper, 1.6 * context_.look.unit});
         }
     }
 
   private:
-    Color color(std::size_t member) const { return series_color(*context_.palette, member); }
+    Color color(std::size_t member) const { return series_color(context_.look.palette, member); }
     Axis axis(double low, double high, const std::string& symbol, ChannelKind kind, double factor) const {
         if (!(low <= high)) low = 0, high = 1 / factor;
         low *= factor, high *= factor;
@@ -106,21 +105,7 @@ class PhasePanel final : public FilmPanel {
         if (!t || !x || !y) return {};
         std::vector<Vec2> points;
         for (std::size_t i = 0; i < t->size(); ++i) points.push_back(to_pixels((*x)[i], (*y)[i]));
-        return smooth(thinned(*t, points, 0.7));
-    }
-    // Rows are dense enough for a spline between them.
-    static TimedPath smooth(const TimedPath& path) {
-        constexpr double kStep = 3;  // [px]
-        TimedPath out;
-        for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
-            const std::vector<Vec2> piece = smooth_piece(path.points, i, kStep);
-            const double from = path.times[i], to = path.times[i + 1];
-            for (std::size_t k = i == 0 ? 0 : 1; k < piece.size(); ++k) {
-                out.points.push_back(piece[k]);
-                out.times.push_back(from + (to - from) * double(k) / double(piece.size() - 1));
-            }
-        }
-        return out.points.empty() ? path : out;
+        return thinned(*t, points, 0.7);
     }
 
     const FilmContext& context_;

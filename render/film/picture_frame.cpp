@@ -19,6 +19,8 @@ constexpr double kCaptionBand = 48;  // height [design px]
 
 }  // namespace
 
+bool is_wide(int width, int height) { return width >= 1.4 * height; }
+
 Box whole(const Box& b) {
     const double x = std::round(b.x), y = std::round(b.y);
     return {x, y, std::max(1.0, std::round(b.right()) - x), std::max(1.0, std::round(b.bottom()) - y)};
@@ -29,19 +31,13 @@ Box plot_area(const Box& box, double u, double words) {
     return whole({box.x + left, box.y + 46 * u, box.w - left - 8 * u, box.h - 46 * u - below});
 }
 
-bool has_column(double w, double h, double u) { return w >= 1150 * u && h >= 480 * u; }
-double widening(double w, double u) {
-    return std::clamp(w - 1600 * u, 0.0, 200 * u) +
-           0.6 * std::max(0.0, w - 2200 * u);  // very wide pictures: wide charts instead of empty space
-}
-
-PictureFrame picture_frame(int width, int height, bool beside, const Shown& shown) {
+PictureFrame picture_frame(int width, int height, const Shown& shown) {
     PictureFrame f;
     Layout& out = f.out;
-    f.wide = width >= 1.4 * height;
-    const double design_pixel = f.wide ? std::min(width / 1920.0, height / 1080.0) : std::min(width, height) / 1080.0;
+    const bool wide = is_wide(width, height);
+    const double design_pixel = wide ? std::min(width / 1920.0, height / 1080.0) : std::min(width, height) / 1080.0;
     out.letters = letters_of(shown.size * design_pixel);
-    out.unit = shown.size * std::max(kSmallestUnit, (f.wide ? 1 : 1080 / 1240.0) * design_pixel);
+    out.unit = shown.size * std::max(kSmallestUnit, (wide ? 1 : 1080 / 1240.0) * design_pixel);
     const double u = out.unit, w = width, h = height;
     const double margin = f.margin = std::min(64 * u, 0.04 * std::min(w, h) + 12 * u);
     f.top = margin * 0.8, f.bottom = h - margin * 0.7, f.right = w - margin;
@@ -49,21 +45,20 @@ PictureFrame picture_frame(int width, int height, bool beside, const Shown& show
     const bool has_title = shown.title && w >= 320 * u && h >= 300 * u,
                has_parameters = shown.parameters && w >= 560 * u && h >= 480 * u;
     const bool has_clock = (shown.clock || shown.legend) && w >= 230 * u && h >= 190 * u;
-    const bool is_large = w >= (f.wide ? 1150 : 660) * u && h >= 600 * u, has_scales = shown.legend && is_large;
+    const bool is_large = w >= (wide ? 1150 : 660) * u && h >= 600 * u, has_scales = shown.legend && is_large;
     if (has_title) {
         out.title = Box{margin, f.top, w - 2 * margin, 64 * u};
         f.top += 64 * u;
     }
     if (has_parameters) {
-        const double column = beside && f.wide && has_column(w, h, u) ? kPanelColumn * u + widening(w, u) + 40 * u : 0;
-        out.parameters = Box{margin, f.top, w - 2 * margin - column, 40 * u};
+        out.parameters = Box{margin, f.top, w - 2 * margin, 40 * u};
         f.top += 40 * u;
     }
     if (shown.warning && is_large) {
         out.warning = Box{margin, f.bottom - 26 * u, w - 2 * margin, 26 * u};
         f.bottom -= 34 * u;
     }
-    const bool apart = has_scales && !f.wide;  // beside the clock there is not enough space
+    const bool apart = has_scales && !wide;  // beside the clock there is not enough space
     if (apart) {
         out.scales = Box{w - margin - kScales * u, f.bottom - 56 * u, kScales * u, 56 * u};
         f.bottom -= 64 * u;

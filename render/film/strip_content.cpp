@@ -39,7 +39,7 @@ bool is_length(const FilmContext& context, Channel c) {
 }
 
 figure::Series curve_of(const FilmContext& context, int member, Channel channel) {
-    if (is_force(channel)) return force_curve(context.motion(member), context.span);
+    if (is_force(channel)) return force_curve(context.motion(member), context.clock.span);
     figure::Series curve;
     const Motion& one = context.motion(member);
     const auto *t = column(one.chart, {ChannelKind::t, 0}), *v = column(one.chart, channel);
@@ -59,8 +59,8 @@ std::span<const double> rows_within(const figure::Series& curve, Range time) {
 
 // The time that the chart shows in some frame.
 Range shown_time(const FilmContext& context, const PanelSpec& spec) {
-    const double first = context.at(0), last = context.at(context.frames() - 1);
-    if (!spec.window) return context.span;
+    const double first = context.clock.at(0), last = context.clock.at(context.frames() - 1);
+    if (!spec.window) return context.clock.span;
     return {window_around(first, *spec.window).low, window_around(last, *spec.window).high};
 }
 
@@ -100,13 +100,13 @@ Range range_of(const FilmContext& context, const PanelSpec& spec, const std::vec
 // Colours distinguish several channels, or several motions.
 Color curve_color(const FilmContext& context, Channel channel, std::size_t i, int member) {
     if (context.members() > 1) return context.member_color(member);
-    if (channel.kind == ChannelKind::contact_force) return context.palette->contact;  // as its arrow
-    return energy_color(*context.palette, channel.kind).value_or(series_color(*context.palette, i));
+    if (channel.kind == ChannelKind::contact_force) return context.look.palette.contact;  // as its arrow
+    return energy_color(context.look.palette, channel.kind).value_or(series_color(context.look.palette, i));
 }
 
 // Of places of contact where no force colors them.
 Color place_color(const FilmContext& context, int member) {
-    return context.members() > 1 ? context.member_color(member) : context.palette->contact;
+    return context.members() > 1 ? context.member_color(member) : context.look.palette.contact;
 }
 
 // Single dots are too small to be seen in the pale colour of the future: if the motion's dots, from `first` on in the
@@ -118,14 +118,14 @@ void strengthen_single(const FilmContext& context, int member, ChartContent& c, 
         if (dots[i].x - dots[i - 1].x >= gap) begin = i;
         if (dots[i].x - dots[begin].x > gap) return;
     }
-    const Color strong = context.palette->tint(place_color(context, member), kSingleShare);
+    const Color strong = context.look.palette.tint(place_color(context, member), kSingleShare);
     for (figure::Dot& dot : dots) dot.faint = strong;
 }
 
 // The places of impulsive impacts, which last no time and have no force that could color them.
 void add_impulses(const FilmContext& context, int member, const Range& shown, ChartContent& c, Extent& places) {
     if (context.motion(member).problem.contact.model != sim::ContactModel::restitution) return;
-    const Palette& p = *context.palette;
+    const Palette& p = context.look.palette;
     const Color color = place_color(context, member);
     const std::size_t first = c.panel.dots.size();
     for (const sim::Impact& impact : context.motion(member).impacts) {
@@ -139,14 +139,14 @@ void add_impulses(const FilmContext& context, int member, const Range& shown, Ch
 // The places of contact as dots; returns the range of those that are shown.
 Range add_places(const FilmContext& context, const Range& shown, ChartContent& c) {
     Extent places;
-    const Palette& p = *context.palette;
+    const Palette& p = context.look.palette;
     for (int m = 0; m < context.members(); ++m) {
         const std::size_t first = c.panel.dots.size();
         for (const TraceSample& s : context.samples[static_cast<std::size_t>(m)]) {
             if (s.t >= shown.low && s.t <= shown.high) places.add({&s.x, 1});
             if (s.t < c.time().low || s.t > c.time().high) continue;
             Color color = context.members() > 1 ? context.member_color(m)
-                                                : force_color(p, std::sqrt(s.force / context.force_scale));
+                                                : force_color(p, std::sqrt(s.force / context.scales.force));
             const Color faint = context.members() > 1 ? p.tint(color, 0.25) : p.tint(p.contact_faint, 0.9);
             if (!context.motion(m).is_reliable(s.t)) color = p.tint(color, kPaleShare);
             c.panel.dots.push_back({s.t, s.x, color, faint});
@@ -182,7 +182,7 @@ std::optional<Color> energy_color(const Palette& p, ChannelKind kind) {
 
 // As points or a line, with a curve of their own for label and reading; extends the range of the values.
 static void add_data(const FilmContext& context, const PanelSpec& spec, ChartContent& c, Range& values) {
-    const Palette& p = *context.palette;
+    const Palette& p = context.look.palette;
     for (std::size_t k = 0; k < context.setup->data.size() && !spec.by_collision; ++k)
         for (const Channel channel : spec.channels) {
             const FilmData& data = context.setup->data[k];
@@ -214,8 +214,8 @@ static bool add_sliding_limits(const FilmContext& context, const PanelSpec& spec
         spec.channels.front().kind != ChannelKind::friction_force)
         return false;
     for (const double side : {-1, 1}) {
-        figure::Series limit{.color = context.palette->muted};
-        limit.faint = context.palette->tint(context.palette->muted, 0.25);
+        figure::Series limit{.color = context.look.palette.muted};
+        limit.faint = context.look.palette.tint(context.look.palette.muted, 0.25);
         limit.dash = FilmContext::dash_of(1);
         for (std::size_t i = 0; i < t->size(); ++i) limit.add((*t)[i], side * law->coefficient * (*force)[i]);
         c.panel.series.push_back(std::move(limit));
@@ -226,14 +226,14 @@ static bool add_sliding_limits(const FilmContext& context, const PanelSpec& spec
 ChartContent blank_content(const FilmContext& context, const PanelSpec& spec, int member) {
     ChartContent c;
     c.window = spec.window;
-    c.set_time(context.span, context.time.unit, std::string("$t$ / ") + context.time.symbol);
+    c.set_time(context.clock.span, context.clock.format.unit, std::string("$t$ / ") + context.clock.format.symbol);
     const auto mark = [&](int whose, figure::EventTick at) {
         for (const sim::Impact& i : context.motion(whose).impacts)
-            if (i.t_start >= context.span.low && i.t_start <= context.span.high)
+            if (i.t_start >= context.clock.span.low && i.t_start <= context.clock.span.high)
                 at.x = i.t_start, c.panel.events.push_back(at);
     };
     if (member >= 0) {
-        mark(member, {.color = context.palette->contact});
+        mark(member, {.color = context.look.palette.contact});
     } else {
         for (int m = 0; m < context.members(); ++m)
             mark(m, {.color = context.member_color(m), .lane = m, .lanes = context.members()});
@@ -263,7 +263,7 @@ std::vector<double> readings_of_data(const FilmContext& context, const PanelSpec
 
 ChartContent strip_content(const FilmContext& context, const PanelSpec& spec) {
     const Channel first = spec.channels.front();
-    const Palette& p = *context.palette;
+    const Palette& p = context.look.palette;
     ChartContent c = blank_content(context, spec, context.members() > 1 ? -1 : 0);
     const bool single = spec.channels.size() == 1;
     const bool dotted = first.kind == ChannelKind::contact_x && !spec.by_collision;
@@ -303,7 +303,7 @@ ChartContent strip_content(const FilmContext& context, const PanelSpec& spec) {
     const auto is_value = [&](double v) { return is_force(first) ? v > 0 : !std::isnan(v); };
     const auto has_values = [&](const figure::Series& curve) { return std::ranges::any_of(curve.y, is_value); };
     if (of_contact && c.panel.dots.empty() && std::ranges::none_of(c.panel.series, has_values))
-        c.instead = context.translate(c.panel.events.empty() ? "no contact" : "impulses only"), unit.clear(),
+        c.instead = context.look.translate(c.panel.events.empty() ? "no contact" : "impulses only"), unit.clear(),
         values = {0, 1};
     c.set_values(values, symbols, unit);
     return c;

@@ -24,7 +24,8 @@ class StripPanel final : public ChartPanel {
         std::vector<double> out;
         for (const Channel channel : spec_.channels)
             for (int m = 0; m < context_.members(); ++m) out.push_back(reading(context_, m, frame, channel));
-        for (const double measured : readings_of_data(context_, spec_, context_.at(frame))) out.push_back(measured);
+        for (const double measured : readings_of_data(context_, spec_, context_.clock.at(frame)))
+            out.push_back(measured);
         return out;
     }
     PanelSpec spec_;
@@ -45,11 +46,11 @@ class CollisionPanel final : public FilmPanel {
         : context_(context),
           spec_(slot.spec),
           box_(slot.box),
-          plot_(plot_area(slot.box, context.unit, context.letters.words)) {
+          plot_(plot_area(slot.box, context.look.unit, context.look.letters.words)) {
         for (const sim::Impact& i : context.motion(0).impacts) {
-            if (i.t_start > context.span.high) break;
-            const double end = std::min(i.t_end.value_or(context.span.high), context.span.high);
-            if (context.frames() > 1 && end < context.at(0)) continue;  // before the film
+            if (i.t_start > context.clock.span.high) break;
+            const double end = std::min(i.t_end.value_or(context.clock.span.high), context.clock.span.high);
+            if (context.frames() > 1 && end < context.clock.at(0)) continue;  // before the film
             if (spans_.empty() || i.collision != last_) spans_.push_back({{i.t_start, end}, end, i.collision});
             Collision& now = spans_.back();
             now.span.high = std::max(now.span.high, end);
@@ -67,7 +68,7 @@ class CollisionPanel final : public FilmPanel {
 
     void draw(Canvas& canvas, int frame, Style, State* state) const override {
         Shown& s = *static_cast<Shown*>(state);
-        const double now = context_.at(frame);
+        const double now = context_.clock.at(frame);
         if (const std::size_t which = shown(now); !s.chart || s.which != which) {
             s.chart.emplace(content_of(which), box_, plot_, chart_style(context_), canvas.fonts());
             s.which = which;
@@ -103,12 +104,12 @@ class CollisionPanel final : public FilmPanel {
             const double length = spans_[which].shown - span.low, m = std::clamp(0.15 * length, 1.5e-5, 0.01);
             time = {-m, length + m};
             // If that is over before the film begins, or before the instant of a still, the contact after it is shown.
-            const double first = context_.at(0), shown_until = span.low + length + m;
+            const double first = context_.clock.at(0), shown_until = span.low + length + m;
             if (context_.frames() == 1 && first > shown_until && first <= span.high)
                 time = {first - kShown - span.low, first - span.low};
-            else if (context_.span.low > shown_until && span.high > context_.span.low)
-                time = {context_.span.low - span.low, std::min(span.high, context_.span.high) - span.low};
-            c.words = context_.translate(fmt::format("Collision {}", spans_[which].number)) + ", ";
+            else if (context_.clock.span.low > shown_until && span.high > context_.clock.span.low)
+                time = {context_.clock.span.low - span.low, std::min(span.high, context_.clock.span.high) - span.low};
+            c.words = context_.look.translate(fmt::format("Collision {}", spans_[which].number)) + ", ";
         }
         const Prefix prefix = time.high < 1 ? prefix_for(time.high) : Prefix{"", 1};
         c.set_time(time, prefix.factor, fmt::format("($t$ − $t$_{{0}}) / {}s", prefix.symbol));

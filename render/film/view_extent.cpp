@@ -61,12 +61,6 @@ Camera ViewExtent::camera(const Box& box, double u) const {
     return camera;
 }
 
-Vec2 ViewExtent::room(const Box& box, double u) const {
-    const double scale = camera(box, u).scale, around = 2 * margin(box, u);
-    const Bounds all = problems.empty() ? Bounds{0, 0, 1, 1} : shown(scale, u, is_small(box, u));
-    return {(all.x1 - all.x0) * scale + around, (all.y1 - all.y0) * scale + around};
-}
-
 ViewExtent view_extent_of(const FilmContext& context, double least_depth) {
     ViewExtent extent;
     const FilmSetup& setup = *context.setup;
@@ -76,7 +70,7 @@ ViewExtent view_extent_of(const FilmContext& context, double least_depth) {
         extent.problems.push_back(&one.problem);
         // Ghosts have the depth of the first beam.
         const double depth = std::max(beam_depth((ghosts ? context.motion(0) : one).problem.beam), least_depth);
-        const double factor = one.problem.beam.model == sim::ModelKind::rigid ? 1 : context.factor;
+        const double factor = one.problem.beam.model == sim::ModelKind::rigid ? 1 : context.scales.exaggeration;
         const auto show = [&](const sim::Pose& pose) {
             const DrawnBeam beam = drawn_beam(one.problem, pose, factor, depth, context.section_reference(m));
             std::vector<Vec2>& strip = extent.strips.emplace_back();
@@ -84,7 +78,7 @@ ViewExtent view_extent_of(const FilmContext& context, double least_depth) {
                 for (Vec2 p : {beam.face(i), beam.back(i)}) extent.beams.add(p), strip.push_back(p);
             if ((m == 0 || !ghosts) && shows_force(pose, beam))
                 extent.arrows.push_back({beam.contact->on_disc, beam.contact->normal,
-                                         std::min(1.0, pose.nearest->force / context.frame_force), depth});
+                                         std::min(1.0, pose.nearest->force / context.scales.arrow_force), depth});
         };
         if (still) show(one.pose(0));
         for (std::size_t k = 0; !still && k < one.surveyed(); ++k) show(one.surveyed(k));
@@ -93,7 +87,7 @@ ViewExtent view_extent_of(const FilmContext& context, double least_depth) {
     for (std::size_t k = 0; k < setup.data.size(); ++k)
         for (const double t : setup.data[k].t)
             if (const double angle = context.measured_angle(k, t);
-                t >= context.at(0) && t <= context.at(context.frames() - 1) && !std::isnan(angle))
+                t >= context.clock.at(0) && t <= context.clock.at(context.frames() - 1) && !std::isnan(angle))
                 extent.beams.add(sim::unit(angle) * (first.hub.radius + first.beam.length));
     return extent;
 }

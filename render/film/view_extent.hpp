@@ -1,5 +1,5 @@
 // The extent of a mechanism over a film: the drawn beams at all times, the circles that discs sweep, hub and support,
-// and the arrows of force. The layout of the picture and the camera follow from it.
+// and the arrows of force. The camera follows from it.
 //
 // Hub, support and arrows have sizes in pixels, so that the proportions depend a little on the box.
 #pragma once
@@ -29,8 +29,6 @@ struct ViewExtent {
     // The camera with the largest scale that shows everything, centred in `box` [px] with a margin. `unit`:
     // Layout::unit.
     Camera camera(const Box& box, double unit) const;
-    // Width and height of everything in that camera, with margins [px].
-    Vec2 room(const Box& box, double unit) const;
 
   private:
     Bounds shown(double scale, double unit, bool small) const;

@@ -28,8 +28,7 @@ std::string omitted_text(const PlannedPictures& p, const Scene& scene) {
     std::vector<const sim::Problem*> problems;
     for (const Compared& each : p.compare) problems.push_back(&each.problem);
     if (problems.empty()) problems.push_back(&scene.problem);
-    const int members = p.comparison == render::Comparison::panels ? static_cast<int>(problems.size()) : 1;
-    return fmt::format("{}", fmt::join(render::omitted_text(p.size.width, p.size.height, p.layout, members, scene.title,
+    return fmt::format("{}", fmt::join(render::omitted_text(p.size.width, p.size.height, p.layout, scene.title,
                                                             problems, p.view.show, scene.units.speed),
                                        "; "));
 }

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdint>
+
 #include "render/draw/fonts.hpp"
 #include "render/film/film.hpp"
 
@@ -26,13 +29,20 @@ inline Image drawn(Film& film, int frame) {
     return image;
 }
 
+inline std::uint32_t pixel_at(const Image& image, int x, int y) {
+    return image.pixels[std::size_t(y) * std::size_t(image.width) + std::size_t(x)];
+}
+
+// The sum of the differences of the channels, each 0…1.
+inline double difference(std::uint32_t pixel, const Color& color) {
+    return std::abs((pixel >> 16 & 255) / 255.0 - color.r) + std::abs((pixel >> 8 & 255) / 255.0 - color.g) +
+           std::abs((pixel & 255) / 255.0 - color.b);
+}
+
 inline long differing_pixels(const Image& a, const Image& b, const Box& within) {
     long count = 0;
     for (int y = int(within.y); y < int(within.bottom()); ++y)
-        for (int x = int(within.x); x < int(within.right()); ++x) {
-            const std::size_t i = std::size_t(y) * std::size_t(a.width) + std::size_t(x);
-            count += a.pixels[i] != b.pixels[i];
-        }
+        for (int x = int(within.x); x < int(within.right()); ++x) count += pixel_at(a, x, y) != pixel_at(b, x, y);
     return count;
 }
 

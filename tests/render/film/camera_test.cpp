@@ -186,7 +186,7 @@ TEST(GlCamera, ShadowsReachTheEdgesOfTheNearPanel) {
         int count = 0;
         for (int y = int(box.y); y < int(box.bottom()); ++y)
             for (const int x : {int(box.x), int(box.right())}) {
-                const std::uint32_t pixel = image.pixels[std::size_t(y) * std::size_t(image.width) + std::size_t(x)];
+                const std::uint32_t pixel = pixel_at(image, x, y);
                 const std::uint32_t alpha = pixel >> 24;
                 count += alpha > 8 && alpha < 40 && (pixel >> 8 & 255) < alpha / 3;  // dark: a shadow alone
             }

@@ -81,7 +81,7 @@ TEST(Film, ForcesBelowABillionthOfTheLargestAreNotShown) {
     setup.poses[touching].nearest->force = 2.4e-16;
     setup.poses[touching].nearest->friction = 1e-16;
     const FilmContext context(std::make_shared<const FilmSetup>(std::move(setup)));
-    ASSERT_GT(context.largest_force, 0);
+    ASSERT_GT(context.scales.largest_force, 0);
     const sim::Pose pose = context.pose(0, static_cast<int>(touching));
     EXPECT_EQ(pose.nearest->force, 0);
     EXPECT_EQ(pose.nearest->friction, 0);

@@ -4,12 +4,10 @@
 
 #include <cmath>
 #include <numbers>
-#include <set>
 #include <string>
 
-#include "render/draw/canvas.hpp"
-#include "render/plot/chart.hpp"
-#include "render/plot/labels.hpp"
+#include "render/film/view_extent.hpp"
+#include "tests/render/films.hpp"
 #include "tests/render/synthetic.hpp"
 
 namespace beamcam::render {
@@ -24,6 +22,10 @@ const PanelSpec kAngle{.kind = PanelKind::strip, .channels = {{sim::ChannelKind:
     kForce{.kind = PanelKind::strip, .channels = {{sim::ChannelKind::contact_force, 0}}};
 const std::vector<PanelSpec> kAll{kAngle, kForce, {.kind = PanelKind::close_up}};
 
+Layout standard_layout(int w, int h, const std::vector<PanelSpec>& side, int members = 1, const Shown& shown = {}) {
+    return layout(w, h, standard_grid(w, h, side, members), shown);
+}
+
 class AnySize : public testing::TestWithParam<Size> {};
 
 std::vector<Box> parts(const Layout& l) {
@@ -36,7 +38,7 @@ std::vector<Box> parts(const Layout& l) {
 
 TEST_P(AnySize, PartsStandWithinThePictureAndApart) {
     const auto [w, h] = GetParam();
-    const Layout l = layout(w, h, kAll);
+    const Layout l = standard_layout(w, h, kAll);
     const std::vector<Box> all = parts(l);
     if (all.size() == 1) return;  // the mechanism alone may fill the picture
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -49,7 +51,7 @@ TEST_P(AnySize, PartsStandWithinThePictureAndApart) {
 }
 
 TEST_P(AnySize, PlotsStandWithinTheirSlots) {
-    const Layout l = layout(GetParam().w, GetParam().h, kAll);
+    const Layout l = standard_layout(GetParam().w, GetParam().h, kAll);
     for (const PanelSlot& c : l.panels) {
         if (c.spec.kind == PanelKind::mechanism) continue;
         const Box plot = plot_area(c.box, l.unit, l.letters.words);
@@ -85,7 +87,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, AnySize,
                                          Size{1, 1}));
 
 TEST(Layout, LettersHaveThreeSizes) {
-    const auto letters = [](int w, int h) { return layout(w, h, std::vector<PanelSpec>{}).letters; };
+    const auto letters = [](int w, int h) { return standard_layout(w, h, {}).letters; };
     EXPECT_NEAR(letters(1280, 720).title, 34, 1e-9);
     EXPECT_NEAR(letters(1280, 720).heading, 20, 1e-9);
     EXPECT_NEAR(letters(1280, 720).words, 16, 1e-9);
@@ -96,8 +98,7 @@ TEST(Layout, LettersHaveThreeSizes) {
         EXPECT_GE(letters(w, h).words, 0.022 * w) << w << "x" << h;
     EXPECT_NEAR(letters(1080, 1920).words, 1.5 * letters(1280, 720).words, 1e-9);
     EXPECT_EQ(letters(64, 48).words, kReadable);
-    const Layout usual = layout(1920, 1080, std::vector<PanelSpec>{}),
-                 large = layout(1920, 1080, std::vector<PanelSpec>{}, 1, {}, {.size = 1.3});
+    const Layout usual = standard_layout(1920, 1080, {}), large = standard_layout(1920, 1080, {}, 1, {.size = 1.3});
     EXPECT_NEAR(large.letters.words, 1.3 * usual.letters.words, 1e-9);
     // Larger labels shrink the plot and do not overlap.
     const Box box{0, 0, 600, 300};
@@ -106,83 +107,27 @@ TEST(Layout, LettersHaveThreeSizes) {
 }
 
 TEST(Layout, FullSizeShowsEverything) {
-    const Layout l = layout(1920, 1080, kAll);
+    const Layout l = standard_layout(1920, 1080, kAll);
     EXPECT_EQ(l.panels.size(), 4U);
     EXPECT_TRUE(l.title && l.parameters && l.clock && l.scales && l.warning);
     EXPECT_DOUBLE_EQ(l.unit, 1);
 }
 
 TEST(Layout, TinyPicturesKeepTheMechanism) {
-    const Layout l = layout(16, 16, kAll);
+    const Layout l = standard_layout(16, 16, kAll);
     ASSERT_EQ(l.panels.size(), 1U);
     EXPECT_FALSE(l.title);
     EXPECT_GT(l.panels.front().box.w, 4);
 }
 
-TEST(Labels, ClockShowsADifferenceBetweenNeighbouringFrames) {
-    const TimeFormat f = time_format({0, 1 / 60.0, 2 / 60.0, 10});
-    EXPECT_EQ(f.decimals, 3);
-    EXPECT_NE(clock_text(f, 1 / 60.0, 1), clock_text(f, 2 / 60.0, 1));
-    const TimeFormat slow = time_format({0.01, 0.01001, 0.0102});
-    EXPECT_STREQ(slow.symbol, "ms");
-    EXPECT_NE(clock_text(slow, 0.01, 1), clock_text(slow, 0.01001, 1));
-}
-
-// Freezes at round times cause steps of rounding size, and one irregular step each.
-// A film of one frame states its instant in the unit of its charts.
-TEST(Labels, TheUnitOfTimeSuitsTheCharts) {
-    EXPECT_STREQ(time_format({0}, 0.02).symbol, "ms");
-    EXPECT_STREQ(time_format({0}, 2).symbol, "s");
-    EXPECT_STREQ(time_format({0.01}, 0.05).symbol, "ms");
-}
-
-TEST(Labels, AStillShowsTheDigitsOfARoundInstantAndFourOfAnEvents) {
-    EXPECT_EQ(time_format({0.28}, 1).decimals, 2);
-    EXPECT_EQ(time_format({0.2815}, 1).decimals, 4);
-    EXPECT_EQ(time_format({0.281525}, 1).decimals, 6);
-    EXPECT_EQ(time_format({0.28152518347}, 1).decimals, 4);
-}
-
-TEST(Labels, FreezesLeaveTheClockItsThreeDecimals) {
-    std::vector<double> times;
-    for (int k = 0; k < 30; ++k) {
-        times.push_back(k / 30.0);
-        if (k % 10 == 3) times.insert(times.end(), 15, k / 30.0 + 1e-16 + (k == 13 ? 1e-7 : 0));
-    }
-    EXPECT_EQ(time_format(times).decimals, 3);
-}
-
-// Slow motion needs more than three decimals only if its frames are less than a millisecond apart.
-TEST(Labels, TheClockHasNoMoreDecimalsThanItNeeds) {
-    const auto decimals = [](double step) { return time_format({0.2, 0.2 + step, 0.2 + 2 * step}).decimals; };
-    EXPECT_EQ(decimals(0.1), 2);
-    EXPECT_EQ(decimals(1 / 60.0), 3);
-    EXPECT_EQ(decimals(0.0033), 3);
-    EXPECT_EQ(decimals(0.0005), 4);
-}
-
-TEST(Labels, SpeedsOfRotationAreWrittenAsTheUserWroteThem) {
-    EXPECT_EQ(turning_speed(0.5, SpeedUnit::automatic), "0.5\u00A0rad/s");
-    EXPECT_EQ(turning_speed(-10 * std::numbers::pi, SpeedUnit::rpm), "−300\u00A0rpm");
-    EXPECT_EQ(turning_speed(-std::numbers::pi / 6, SpeedUnit::degrees), "−30°/s");
-    EXPECT_EQ(turning_speed(0, SpeedUnit::automatic), "0\u00A0rad/s");
-}
-
 TEST(Layout, WhatIsNotShownLeavesItsRoomToThePanels) {
-    const Layout all = layout(1920, 1080, kAll);
-    const Layout none = layout(1920, 1080, kAll, 1, {}, {false, false, false, false, false, false});
+    const Layout all = standard_layout(1920, 1080, kAll);
+    const Layout none = standard_layout(1920, 1080, kAll, 1, {false, false, false, false, false, false});
     EXPECT_FALSE(none.title || none.parameters || none.clock || none.scales || none.warning);
     EXPECT_GT(none.panels.front().box.h, all.panels.front().box.h + 150);
-    const Layout untitled = layout(1920, 1080, kAll, 1, {}, {.title = false});
+    const Layout untitled = standard_layout(1920, 1080, kAll, 1, {.title = false});
     EXPECT_NEAR(untitled.panels.front().box.y, all.panels.front().box.y - 64, 1);
-    EXPECT_TRUE(layout(1920, 1080, kAll, 1, {}, {.clock = false}).clock);  // its pills belong to the legend
-}
-
-TEST(Labels, LargeNumbersArePowersOfTen) {
-    EXPECT_EQ(power_text(1e8), "10^{8}");
-    EXPECT_EQ(power_text(2.5e7), "2.5·10^{7}");
-    EXPECT_EQ(power_text(200), "200");
-    EXPECT_EQ(power_text(3e-10), "3·10^{−10}");
+    EXPECT_TRUE(standard_layout(1920, 1080, kAll, 1, {.clock = false}).clock);  // its pills belong to the legend
 }
 
 // Panels of a grid without space are reported.
@@ -197,25 +142,7 @@ TEST(Layout, PanelsWithoutRoomAreNamed) {
     EXPECT_EQ(omitted_panels(100, 100, grid).size() + layout(100, 100, grid).panels.size(), 4u);
 }
 
-// ---- the standard layout follows the extent ----------------------------------------------------
-
-// Extent of a beam that swings between two angles, and of the paper's cam.
-ViewExtent swinging(const sim::Problem& problem, double from, double to) {
-    ViewExtent extent;
-    extent.problems = {&problem};
-    for (double angle = from; angle <= to; angle += 0.01) extent.beams.add(sim::unit(angle) * problem.beam.length);
-    extent.beams.add({0, 0}, beam_depth(problem.beam));
-    return extent;
-}
-
-struct Extents {
-    sim::Problem paper, flat;
-    std::vector<ViewExtent> all;
-    Extents() {
-        flat.cam->radius = 0.03, flat.cam->eccentricity = 0.005;
-        all = {swinging(paper, 0.3, 0.8), swinging(paper, 1.2, 1.6), swinging(flat, 0.05, 0.12)};
-    }
-};
+// ---- the standard grid ---------------------------------------------------------------------------
 
 // 200 sizes from a fixed seed.
 std::vector<Size> many_sizes() {
@@ -229,96 +156,47 @@ std::vector<Size> many_sizes() {
     return out;
 }
 
-TEST(Layout, PartsStandApartForAnyMotionAndSize) {
-    const Extents extents;
+TEST(Layout, PartsStandApartInAnySize) {
     for (const auto [w, h] : many_sizes())
-        for (const ViewExtent& extent : extents.all)
-            for (int members : {1, 3, 8}) {
-                const Layout l = layout(w, h, kAll, members, extent);
-                const std::vector<Box> all = parts(l);
-                for (std::size_t i = 0; i < all.size(); ++i) {
-                    EXPECT_TRUE((Box{0, 0, 1.0 * w, 1.0 * h}.contains(all[i], 1))) << w << "x" << h << ": " << i;
-                    for (std::size_t j = 0; j < i; ++j)
-                        EXPECT_FALSE(all[i].inset(1).overlaps(all[j].inset(1)))
-                            << w << "x" << h << ", " << members << ": " << i << " and " << j;
-                }
+        for (int members : {1, 3, 8}) {
+            const Layout l = standard_layout(w, h, kAll, members);
+            const std::vector<Box> all = parts(l);
+            for (std::size_t i = 0; i < all.size(); ++i) {
+                EXPECT_TRUE((Box{0, 0, 1.0 * w, 1.0 * h}.contains(all[i], 1))) << w << "x" << h << ": " << i;
+                for (std::size_t j = 0; j < i; ++j)
+                    EXPECT_FALSE(all[i].inset(1).overlaps(all[j].inset(1)))
+                        << w << "x" << h << ", " << members << ": " << i << " and " << j;
             }
+        }
 }
 
-TEST(Layout, NoOtherArrangementShowsTheMechanismLarger) {
-    using enum Arrangement;
-    const Extents extents;
-    int columns = 0, below = 0;
-    for (const auto [w, h] : many_sizes())
-        for (const ViewExtent& extent : extents.all)
-            for (int members : {1, 3}) {
-                const Layout l = layout(w, h, kAll, members, extent);
-                const PanelSlot* side = l.first(PanelKind::strip);
-                if (!side) continue;
-                (side->box.x > l.first(PanelKind::mechanism)->box.right() ? columns : below) += 1;
-                for (Arrangement other : {column, h > 1.35 * w ? stack : row})
-                    if (const auto o = arranged(other, w, h, kAll, members, extent)) {
-                        EXPECT_GE(scale_of(l, extent), scale_of(*o, extent)) << w << "x" << h;
-                    }
-                if (members < 3) continue;
-                const Layout alone = *arranged(Arrangement::alone, w, h, kAll, members, extent);
-                EXPECT_GE(scale_of(l, extent), 0.6 * scale_of(alone, extent)) << w << "x" << h;
+TEST(Layout, ChartsAreBesideTheMechanismInAWidePictureAndBelowItInOthers) {
+    for (const auto& [w, h] : {std::pair{1920, 1080}, {1080, 1080}, {1080, 1920}}) {
+        const Layout l = standard_layout(w, h, {kAngle, kForce});
+        const Box mechanism = l.first(PanelKind::mechanism)->box, chart = l.first(PanelKind::strip)->box;
+        EXPECT_EQ(l.panels.size(), 3u) << w;
+        if (w > h)
+            EXPECT_GT(chart.x, mechanism.right());
+        else
+            EXPECT_GT(chart.y, mechanism.bottom());
+        EXPECT_GT(mechanism.w * mechanism.h, 2.5 * chart.w * chart.h) << w;
+    }
+}
+
+// Also where a cell is left empty.
+TEST(Layout, SeveralMechanismsHaveCellsOfOneSize) {
+    for (const auto& [w, h] : {std::pair{1920, 1080}, {1080, 1080}, {1080, 1920}})
+        for (const int members : {2, 3, 4, 5, 8}) {
+            std::vector<Box> boxes;
+            for (const PanelSlot& slot : standard_layout(w, h, kAll, members).panels)
+                if (slot.spec.kind == PanelKind::mechanism) boxes.push_back(slot.box);
+            ASSERT_EQ(std::ssize(boxes), members) << w;
+            for (const Box& box : boxes) {
+                EXPECT_NEAR(box.w, boxes[0].w, 1);
+                EXPECT_NEAR(box.h, boxes[0].h, 1);
+                EXPECT_LT(std::max(box.w / box.h, box.h / box.w), 3) << w << "x" << h << ", " << members;
             }
-    EXPECT_GT(columns, 100);
-    EXPECT_GT(below, 100);
-}
-
-// Charts get the space that the mechanism does not need, and no more.
-TEST(Layout, WideChartsCostTheMechanismNothing) {
-    const Extents extents;
-    const Layout upright = layout(1920, 1080, kAll, 1, extents.all[1]),
-                 lying = layout(1920, 1080, kAll, 1, extents.all[2]);
-    EXPECT_GT(upright.first(PanelKind::strip)->box.w, 700);
-    const Box narrow{0, 0, 1212, upright.first(PanelKind::mechanism)->box.h};  // beside a column of the usual width
-    EXPECT_NEAR(scale_of(upright, extents.all[1]), extents.all[1].camera(narrow, 1).scale, 1e-9);
-    EXPECT_GT(lying.first(PanelKind::strip)->box.y, lying.first(PanelKind::mechanism)->box.bottom());
-}
-
-TEST(Layout, SeveralMechanismsStandAsTheirMotionAsks) {
-    const Extents extents;
-    const auto boxes = [&](const ViewExtent& extent) {
-        std::vector<Box> out;
-        for (const PanelSlot& slot : layout(1920, 1080, {}, 3, extent).panels) out.push_back(slot.box);
-        return out;
-    };
-    const std::vector<Box> upright = boxes(extents.all[1]), lying = boxes(extents.all[2]);
-    ASSERT_EQ(upright.size(), 3U);
-    ASSERT_EQ(lying.size(), 3U);
-    EXPECT_EQ(upright[0].y, upright[2].y);
-    EXPECT_EQ(lying[0].x, lying[2].x);
-    for (const auto& all : {upright, lying})
-        for (const Box& box : all) EXPECT_TRUE(box.w == all[0].w && box.h == all[0].h);
-}
-
-// The box of the parameters does not depend on the motion.
-// Four mechanisms in a square leave no cell empty; in a very wide picture charts are not squeezed.
-TEST(Layout, SeveralMechanismsUseTheArea) {
-    std::vector<PanelSpec> side = standard_panels({}, false);
-    const auto columns_of = [](const Layout& l) {
-        std::set<double> out;
-        for (const PanelSlot& slot : l.panels)
-            if (slot.spec.kind == PanelKind::mechanism) out.insert(slot.box.x);
-        return out.size();
-    };
-    ViewExtent extent;
-    extent.beams.add({-0.1, -0.2}), extent.beams.add({1, 0.8});
-    const sim::Problem problem;
-    extent.problems.push_back(&problem);
-    EXPECT_EQ(columns_of(layout(1080, 1080, side, 4, extent)), 2U);
-    const Layout wide = layout(3840, 1080, side, 4, extent);
-    EXPECT_GE(wide.first(PanelKind::strip)->box.w, 0.19 * 3840);
-}
-
-TEST(Layout, RoomOfTheParametersDependsOnTheSizeAlone) {
-    const Extents extents;
-    for (const auto [w, h] : many_sizes())
-        for (const ViewExtent& extent : extents.all)
-            EXPECT_EQ(layout(w, h, kAll, 1, extent).parameters, layout(w, h, kAll).parameters) << w << "x" << h;
+        }
 }
 
 // The arrow of the largest force is inside the mechanism's box.
@@ -341,6 +219,46 @@ TEST(ViewExtent, ArrowsOfForceAreSeen) {
         const double length = force_arrow_length(near.force / largest, false, g.layout.unit);
         EXPECT_GE(foot.y - g.beam.contact->normal.y * length, g.layout.first(PanelKind::mechanism)->box.y) << k;
     }
+}
+
+TEST(Layout, SharesDivideTheRoom) {
+    using enum LayoutNode::Kind;
+    const Layout l = layout(
+        1920, 1080, grid(columns, {leaf({.kind = PanelKind::mechanism}, 3), leaf(strip(sim::ChannelKind::theta))}));
+    ASSERT_EQ(l.panels.size(), 2U);
+    EXPECT_NEAR(l.panels[0].box.w / l.panels[1].box.w, 3, 0.01);
+    EXPECT_EQ(l.panels[0].box.h, l.panels[1].box.h);
+}
+
+TEST(Layout, PanelsTooSmallToReadLeaveTheirRoomToOthers) {
+    using enum LayoutNode::Kind;
+    std::vector<LayoutNode> many;
+    for (int i = 0; i < 12; ++i) many.push_back(leaf(strip(sim::ChannelKind::theta)));
+    const Layout l = layout(1280, 720, grid(rows, many));
+    EXPECT_LT(l.panels.size(), 8U);
+    EXPECT_GT(l.panels.size(), 1U);
+    for (const PanelSlot& slot : l.panels) EXPECT_GE(slot.box.h, type_of(PanelKind::strip).smallest.y * l.unit - 1);
+}
+
+TEST(Layout, AGroupOfPanelsThatFindNoRoomLeavesItsOwn) {
+    using enum LayoutNode::Kind;
+    const LayoutNode wanted =
+        grid(columns, {leaf({.kind = PanelKind::mechanism}, 3),
+                       grid(rows, {leaf({.kind = PanelKind::energy}), leaf({.kind = PanelKind::phase})}, 1)});
+    const Layout large = layout(1920, 1080, wanted), small = layout(400, 400, wanted);
+    EXPECT_EQ(large.panels.size(), 3U);
+    ASSERT_EQ(small.panels.size(), 1U);
+    EXPECT_GT(small.panels[0].box.w, 0.85 * 400);
+    EXPECT_EQ(omitted_panels(400, 400, wanted).size(), 2U);
+}
+
+TEST(Layout, ColumnsOfATallPictureStandBelowEachOther) {
+    using enum LayoutNode::Kind;
+    const LayoutNode two = grid(columns, {leaf({.kind = PanelKind::mechanism}), leaf(strip(sim::ChannelKind::theta))});
+    const Layout l = layout(1080, 1920, two);
+    ASSERT_EQ(l.panels.size(), 2U);
+    EXPECT_EQ(l.panels[0].box.x, l.panels[1].box.x);
+    EXPECT_GT(l.panels[1].box.y, l.panels[0].box.bottom());
 }
 
 }  // namespace

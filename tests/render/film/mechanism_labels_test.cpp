@@ -156,7 +156,8 @@ TEST(MechanismLegend, NamesAreInOneRowAndCutWhereTheyHaveNoRoom) {
                 legend.draw(canvas, home);
                 std::erase_if(texts, [&](const Box& text) { return text.y > slot.box.centre().y; });  // the scale bar
                 EXPECT_EQ(texts.size(), how == Comparison::ghosts ? 4U : 1U) << width;
-                EXPECT_EQ(legend.cuts_names(), at_length && width < 1920) << width;
+                EXPECT_LE(legend.cuts_names(), at_length) << width;
+                EXPECT_GE(legend.cuts_names(), at_length && width == 320) << width;
                 EXPECT_EQ(Film(setup).cut_texts().size(), legend.cuts_names() ? 1U : 0U) << width;
                 for (std::size_t i = 0; i < texts.size(); ++i) {
                     EXPECT_TRUE(slot.box.contains(texts[i], 1)) << width;

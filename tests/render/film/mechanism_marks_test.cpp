@@ -8,6 +8,7 @@
 
 #include "render/film/mechanism_cameras.hpp"
 #include "tests/render/drawing.hpp"
+#include "tests/render/films.hpp"
 #include "tests/render/synthetic.hpp"
 
 namespace beamcam::render {
@@ -83,6 +84,38 @@ TEST(MechanismMarks, TheBaseLineIsNamedWhereThereIsTimeToReadIt) {
     EXPECT_EQ(words(1, -0.01), 0U);
     EXPECT_EQ(words(0.01, 0.01), 0U);
     EXPECT_EQ(words(0.01, 0), 0U);
+}
+
+TEST(Mechanism, TheAngleIsDrawnInTheSenseTheHubHasTurned) {
+    // The arc of 200° is counter-clockwise: it crosses the vertical above the hub.
+    FilmSetup setup = test::flat_film({.duration = 0.1, .cam = false}, 1200, 1200);
+    const double angle = 200 * std::numbers::pi / 180;
+    for (sim::Pose& pose : setup.poses) {
+        const std::size_t n = pose.centreline.size();
+        for (std::size_t i = 0; i < n; ++i) pose.centreline[i] = sim::unit(angle) * (double(i) / double(n - 1));
+        pose.theta = angle;
+    }
+    // The first frame's beam points to the right and leaves space.
+    sim::Pose& other = setup.poses.front();
+    for (std::size_t i = 0; i < other.centreline.size(); ++i)
+        other.centreline[i] = sim::unit(0.1) * (double(i) / double(other.centreline.size() - 1));
+    other.theta = 0.1;
+    setup.layout = leaf({.kind = PanelKind::mechanism});
+    const Color muted = palette(setup.view.theme).muted;
+    Film film(std::move(setup));
+    const FrameGeometry g = film.geometry(2);
+    const Image image = drawn(film, 2);
+    const Vec2 hub = g.camera.to_pixels({0, 0});
+    const auto has_arc = [&](double side) {
+        for (double r = 80 * g.layout.unit; r < 160 * g.layout.unit; ++r) {
+            const int x = int(hub.x), y = int(hub.y + side * r);
+            const std::uint32_t p = pixel_at(image, x, y);
+            if (difference(p, muted) < 0.25) return true;
+        }
+        return false;
+    };
+    EXPECT_TRUE(has_arc(-1));
+    EXPECT_FALSE(has_arc(1));
 }
 
 }  // namespace

@@ -67,16 +67,16 @@ TEST(ParameterLine, IsSmallerBeforeAnythingIsLeftOut) {
 
 TEST(ParameterLine, WhatFindsNoRoomIsNamedInPlainWords) {
     const sim::Problem problem;
-    EXPECT_TRUE(omitted_text(1920, 1080, {}, 1, "Fall", {&problem}).empty());
-    const std::vector<std::string> tiny = omitted_text(320, 180, {}, 1, "Fall", {&problem});
+    EXPECT_TRUE(omitted_text(1920, 1080, {}, "Fall", {&problem}).empty());
+    const std::vector<std::string> tiny = omitted_text(320, 180, {}, "Fall", {&problem});
     ASSERT_EQ(tiny.size(), kPieces.size() + 1);
     EXPECT_EQ(tiny.front(), "L = 1 m");
     EXPECT_EQ(tiny.back(), "colour scales");
     const std::string essay =
         "A beam falls onto a cam that turns, strikes it, bounces, strikes again and follows it to the end";
-    EXPECT_EQ(omitted_text(480, 270, {}, 1, essay, {&problem}).front(), "the end of the title");
-    EXPECT_TRUE(omitted_text(1920, 1080, {}, 1, essay, {&problem}).empty());
-    EXPECT_EQ(omitted_text(160, 90, {}, 1, "Fall", {&problem}).front(), "the title");
+    EXPECT_EQ(omitted_text(480, 270, {}, essay, {&problem}).front(), "the end of the title");
+    EXPECT_TRUE(omitted_text(1920, 1080, {}, essay, {&problem}).empty());
+    EXPECT_EQ(omitted_text(160, 90, {}, "Fall", {&problem}).front(), "the title");
     EXPECT_EQ(tiny[5], "K = 10⁸ N m^−1.5, c_r = 0.7");
 }
 

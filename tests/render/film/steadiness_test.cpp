@@ -9,7 +9,6 @@
 #include <memory>
 
 #include "render/draw/canvas.hpp"
-#include "render/draw/smooth_path.hpp"
 #include "render/film/film.hpp"
 #include "render/plot/labels.hpp"
 #include "tests/render/drawing.hpp"
@@ -246,37 +245,6 @@ TEST(Steadiness, TheTipOfTheGeometryIsThePosesAtFactorOne) {
 
 // ---- the path of the tip -----------------------------------------------------------------------
 
-TEST(SmoothPath, PassesThroughThePlacesAndKeepsToACircle) {
-    std::vector<Vec2> places;
-    for (int k = 0; k < 12; ++k) places.push_back(sim::unit(0.13 * k) * 370);  // 4 rad/s at 30 frames a second
-    for (std::size_t i = 0; i + 1 < places.size(); ++i) {
-        const std::vector<Vec2> piece = smooth_piece(places, i, 6);
-        EXPECT_EQ(piece.front(), places[i]);
-        EXPECT_EQ(piece.back(), places[i + 1]);
-        EXPECT_GT(piece.size(), 6u);
-        const bool inner = i > 0 && i + 2 < places.size();
-        for (Vec2 p : piece) EXPECT_NEAR(norm(p), 370, inner ? 0.02 : 0.8);  // chords: 0.78 px
-    }
-}
-
-TEST(SmoothPath, WhatTurnsFarKeepsToItsCircle) {
-    const Vec2 centre{400, 300};
-    const auto on_circle = [&](double angle) { return centre + Vec2{std::cos(angle), -std::sin(angle)} * 200; };
-    for (const double turn : {0.5, -2.0, 4.0, -9.0}) {
-        const std::vector<Vec2> piece = turning_piece(centre, on_circle(1), on_circle(1 + turn), turn, 6);
-        EXPECT_EQ(piece.front(), on_circle(1));
-        EXPECT_EQ(piece.back(), on_circle(1 + turn));
-        double length = 0;
-        for (std::size_t i = 1; i < piece.size(); ++i) {
-            EXPECT_NEAR(norm(piece[i] - centre), 200, 1e-9);
-            length += norm(piece[i] - piece[i - 1]);
-        }
-        EXPECT_NEAR(length, 200 * std::abs(turn), 1e-3 * length) << turn;  // chords of 0.03 rad
-    }
-    const std::vector<Vec2> outwards = turning_piece({0, 0}, {100, 0}, {0, -200}, 0.5 * 3.14159265358979, 2);
-    EXPECT_NEAR(norm(outwards[outwards.size() / 2]), 150, 2);
-}
-
 // A rod that rotates by two radians per frame.
 TEST(Steadiness, TheTrailOfAFastTurnIsRound) {
     FilmSetup setup = film_of(Style::flat, {.duration = 1, .fps = 10, .cam = false});
@@ -347,25 +315,6 @@ TEST(Steadiness, TheTrailFollowsThePosesBetweenFrames) {
     EXPECT_FALSE(is_painted_at_tip(setup, 3, 0.3));
     setup.path = poses_at(setup, times_between(0, 1, 60), angle);
     EXPECT_TRUE(is_painted_at_tip(setup, 3, 0.3));
-}
-
-// One turn a second: before the first frame the rod was where it is at the end of the film.
-TEST(Steadiness, TheTrailOfALoopHasNoSeam) {
-    const auto angle = [](double t) { return 2 * 3.14159265358979 * t; };
-    EXPECT_TRUE(is_painted_at_tip(led_film(1, 24, angle), 0, -0.4));
-    EXPECT_FALSE(is_painted_at_tip(led_film(0, 24, angle), 0, -0.4));  // it began there
-    const auto from_apex = [](double t) { return 0.4 * std::cos(2 * 3.14159265358979 * t); };
-    EXPECT_TRUE(is_painted_at_tip(led_film(1, 24, from_apex), 0, 0.1));
-}
-
-TEST(SmoothPath, StandingStillAndUnevenStepsAreFine) {
-    const std::vector<Vec2> places{{0, 0}, {0, 0}, {0, 0}, {40, 0}, {40, 0}, {40.1, 0}, {80, 30}};
-    for (std::size_t i = 0; i + 1 < places.size(); ++i)
-        for (Vec2 p : smooth_piece(places, i, 4)) {
-            EXPECT_TRUE(std::isfinite(p.x) && std::isfinite(p.y));
-            EXPECT_GE(p.x, -4);
-            EXPECT_LE(p.x, 84);
-        }
 }
 
 // The trail of the tip does not change while time is frozen.

@@ -40,9 +40,7 @@ BodyScene scene_of(const MechanismShape& shape, const Projection& view, Ground g
     return body_scene(shape, palette(Theme::light), stage, view);
 }
 
-std::uint32_t alpha_at(const Image& image, int x, int y) {
-    return image.pixels[std::size_t(y) * std::size_t(image.width) + std::size_t(x)] >> 24;
-}
+std::uint32_t alpha_at(const Image& image, int x, int y) { return pixel_at(image, x, y) >> 24; }
 
 TEST(BodyScene, LiesWithinTheTilesThatAreSeen) {
     for (const Ground ground : {Ground::wall, Ground::floor}) {

@@ -7,6 +7,7 @@
 
 #include "render/draw/canvas.hpp"
 #include "render/plot/chart.hpp"
+#include "tests/render/drawing.hpp"
 
 namespace beamcam::render::figure {
 namespace {
@@ -25,7 +26,7 @@ Range columns_with(const Image& image, std::uint32_t color) {
     Range out{1e9, -1};
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x)
-            if ((image.pixels[std::size_t(y) * std::size_t(image.width) + std::size_t(x)] & 0xFFFFFF) == color)
+            if ((pixel_at(image, x, y) & 0xFFFFFF) == color)
                 out = {std::min(out.low, double(x)), std::max(out.high, double(x))};
     return out;
 }
