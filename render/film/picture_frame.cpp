@@ -14,7 +14,7 @@ Letters letters_of(double design_pixel) {
     return {34 / 16.0 * words, 20 / 16.0 * words, words};
 }
 
-constexpr double kScales = 560;      // width of two colour scales [design px]
+constexpr double kScales = 720;      // width of two colour scales [design px]
 constexpr double kCaptionBand = 48;  // height [design px]
 
 }  // namespace
@@ -45,7 +45,7 @@ PictureFrame picture_frame(int width, int height, const Shown& shown) {
     const bool has_title = shown.title && w >= 320 * u && h >= 300 * u,
                has_parameters = shown.parameters && w >= 560 * u && h >= 480 * u;
     const bool has_clock = (shown.clock || shown.legend) && w >= 230 * u && h >= 190 * u;
-    const bool is_large = w >= (wide ? 1150 : 660) * u && h >= 600 * u, has_scales = shown.legend && is_large;
+    const bool is_large = w >= (wide ? 1300 : 860) * u && h >= 600 * u, has_scales = shown.legend && is_large;
     if (has_title) {
         out.title = Box{margin, f.top, w - 2 * margin, 64 * u};
         f.top += 64 * u;

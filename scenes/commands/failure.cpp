@@ -58,7 +58,10 @@ int report(const std::exception& error) {
         if (!text.empty()) output::print_message("{}{}", text, text.ends_with('\n') ? "" : "\n");
         return code;
     }
-    if (may_be_memory && render::memory_limit()) text += "; perhaps there was " + render::out_of_memory_message();
+    if (may_be_memory && render::memory_limit()) {
+        text += "; perhaps there was " + render::out_of_memory_message();
+        if (code == kBug) code = kInputOutput;  // rather than one of the program
+    }
     output::print_message("beamcam: {}\n", text);
     return code;
 }

@@ -5,10 +5,12 @@ using sim::Vec2;
 
 // The symbols keep their places relative to the direction from C to B, along which they turn.
 void draw_disc_symbols(const sim::Cam& cam, Vec2 b, double zoom, double letter, Sketch& to) {
-    constexpr double kTurn = 0.8;      // radius of the arrow ω, in that of the disc
-    constexpr double kRadius = -2.26;  // direction of the arrow R [rad]
+    constexpr double kTurn = 0.8;  // radius of the arrow ω, in that of the disc
+    constexpr double kRadius = -1.8,
+                     kTurning = 1.57;  // directions of the arrows R and ω, which keep labels apart [rad]
     const double radius = zoom * cam.radius;
-    const Vec2 along = sim::unit(cam.phase), across = sim::perp(along), out = sim::unit(cam.phase + kRadius);
+    const double phase = cam.eccentricity > 0 ? cam.phase : 0, turning = phase + kTurning;
+    const Vec2 along = sim::unit(phase), across = sim::perp(along), out = sim::unit(phase + kRadius);
     const Vec2 c = b - zoom * cam.eccentricity * along, rim = b + radius * out;
     to.arrow(b, rim);
     to.label(0.5 * (b + rim), "$R$", 0.85 * sim::perp(out));
@@ -34,11 +36,11 @@ void draw_disc_symbols(const sim::Cam& cam, Vec2 b, double zoom, double letter, 
     to.add({.kind = Sketch::Kind::turn,
             .centre = b,
             .radius = kTurn * radius,
-            .from = cam.phase - 0.9 * way + 0.2,
-            .to = cam.phase + 0.5 * way + 0.2,
+            .from = turning - 0.9 * way + 0.2,
+            .to = turning + 0.5 * way + 0.2,
             .color = Sketch::kInk,
             .width = 0.8});
-    to.label(b + kTurn * radius * sim::unit(cam.phase + 0.1), "$ω$", -0.85 * along);
+    to.label(b + kTurn * radius * sim::unit(turning + 0.1), "$ω$", -0.85 * sim::unit(turning));
 }
 
 }  // namespace beamcam::scenes
