@@ -24,6 +24,7 @@ struct SweepArguments {
     std::string scene, file;
     std::vector<std::string> over;
     std::optional<std::string> sample, transient, keep, seed;
+    bool exponents = false;
     std::optional<std::string> diagram, figure, value, caption;
     std::string column = "elsevier";
     Lang lang = Lang::en;
@@ -121,6 +122,7 @@ Scene with_sweep_options(Scene scene, const SweepArguments& args) {
     if (args.seed) require("--seed", *args.seed, parse_seeds(*args.seed, sweep.seeds));
     if (args.transient) sweep.sampling.transient = span_argument("--transient", *args.transient);
     if (args.keep) sweep.sampling.keep = span_argument("--keep", *args.keep);
+    if (args.exponents) sweep.sampling.exponents = true;
     for (const SweepProblem& problem : problems_of(sweep, scene.problem))
         throw UsageError(fmt::format("{}: {}", problem.key.starts_with("over") ? "--over" : problem.key, problem.text));
     scene.sweep = std::move(sweep);
@@ -206,6 +208,8 @@ void add_sweep(Grammar& grammar) {
     app.option("--keep", &args.keep, "N", "Turns of the cam, or a time, in which samples are taken (default: 50)");
     app.option("--seed", &args.seed, "WHICH",
                "Initial states: same, carry-up, carry-down, carry-up,carry-down or random:N (default: same)");
+    app.flag("--exponents", args.exponents,
+             "Compute the largest Lyapunov exponent of each motion, too, which may show that it is chaotic");
     app.option("-o,--output", &args.file, "FILE",
                "Table of samples: .csv, .npz or .nc (NetCDF-4); without any file, CSV on standard output");
     app.option("--diagram", &args.diagram, "FILE", "Figure of the sweep: .pdf, .svg or .png");

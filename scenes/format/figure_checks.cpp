@@ -132,6 +132,8 @@ void check_series(ObjectReader& r, FigureOutput& figure) {
 
 std::string problem_with_value(std::string_view diagram, const std::string& value, const Scene& scene) {
     const std::vector<std::string> known = diagram_values(diagram, scene);
+    if (value == "exponent" && scene.sweep && !scene.sweep->sampling.exponents)
+        return "the sweep computes no exponents; add \"exponents\": true to it (sweep --exponents)";
     if (value.empty() || std::ranges::find(known, value) != known.end()) return "";
     return fmt::format("the samples of the sweep have no column {}{}", in_quotes(value),
                        suggestion_or_list(value, known));

@@ -11,6 +11,7 @@
 #include "scenes/format/object_reader.hpp"
 #include "scenes/format/suggest.hpp"
 #include "scenes/format/value_formats.hpp"
+#include "sim/orbit/exponents.hpp"
 #include "sim/problem/number_keys.hpp"
 
 namespace beamcam::scenes {
@@ -168,6 +169,8 @@ void visit(SceneVisitor& v, Sweep& sweep) {
             "Start of each motion: the scene's initial state, the end of the motion at the previous value (upwards or "
             "downwards), or a random state.",
             SceneVisitor::keys_of(sweep.seeds, visit_random));
+    v.boolean("exponents", sweep.sampling.exponents,
+              "Also compute the largest Lyapunov exponent of each motion. Only with it is a class \"chaotic\".");
     v.check([&sweep](ObjectReader& r) {
         for (const SweepProblem& problem : problems_of(sweep, r.context().scene.problem))
             if (!r.diagnostics().failed(r.path(problem.key)))  // else it has an error already
@@ -290,6 +293,8 @@ std::vector<SweepProblem> problems_of(const Sweep& sweep, const sim::Problem& pr
     if (!problem.cam && (sweep.sampling.kind == SampleKind::impacts || sweep.sampling.kind == SampleKind::section ||
                          sweep.sampling.kind == SampleKind::peaks))
         all.push_back({"sample", "there is no cam; use \"apexes\", or add a \"cam\""});
+    if (const auto refusal = sweep.sampling.exponents ? sim::tangent_refusal(problem) : std::nullopt)
+        all.push_back({"exponents", *refusal});
     return all;
 }
 

@@ -38,8 +38,8 @@ output::StoredPoint stored(std::uint64_t index, const sim::SweepPoint& made, con
     out.kind = static_cast<int>(made.attractor.kind);
     out.period = made.attractor.period;
     out.impacts_per_period = made.attractor.impacts_per_period;
-    out.exponent = made.attractor.exponent.value;
-    out.exponent_error = made.attractor.exponent.error;
+    out.exponent = made.attractor.exponent;
+    out.exponent_error = made.attractor.exponent_error;
     out.failure = made.motion.failure;
     const std::vector<std::size_t> columns = kept_columns(sampling);
     out.samples.reserve(made.motion.samples.size() * columns.size());
@@ -169,7 +169,7 @@ output::SweepData data_of(const SweepGrid& grid, const Shard& shard) {
         {"transient", span(sampling.transient)},
         {"keep", span(sampling.keep)},
         {"seeds", seeds},
-        {"criteria", "sim/MODEL.md of beamcam, (S86) to (S89a)"},
+        {"criteria", "sim/MODEL.md of beamcam, (S86) to (S89)"},
         {"tolerance", fmt::format("rtol {:g}, atol {:g}; a rigid beam with impulsive contact is followed to rounding",
                                   grid.scene().problem.solver.rtol, grid.scene().problem.solver.atol)},
         {"beamcam_scene", to_json(grid.scene())},

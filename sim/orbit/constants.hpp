@@ -72,7 +72,7 @@ inline constexpr double kGrazing = 0.01;    // of the root mean square approach 
 inline constexpr double kTangentErrors = 100;
 inline constexpr std::size_t kHistory = 400;  // approximate number of points of the convergence history
 // Chaos requires that the later half of a motion multiplies differences by more than e^kLateGrowth. Linear growth does
-// not.                                                                                                          (S89)
+// not.                                                                                                          (S74)
 inline constexpr double kLateGrowth = 3;
 
 }  // namespace beamcam::sim

@@ -14,6 +14,12 @@
 namespace beamcam::sim {
 namespace {
 
+// The standard error of the mean of several blocks.
+double standard_error(const Eigen::ArrayXd& blocks, double mean) {
+    const auto n = static_cast<double>(blocks.size());
+    return std::sqrt((blocks - mean).square().sum() / (n * (n - 1)));
+}
+
 // The longest interval between two orthonormalizations: a turn of the cam, a second, or less with strong damping.
 double longest_interval(const Problem& problem) {
     // Compliant contact may damp strongly while it lasts.
@@ -172,9 +178,14 @@ void judge_impacts(const std::vector<TangentTouch>& touches, Exponents& e) {
     if (approaches.empty()) return;
     e.impacts = static_cast<long>(approaches.size());
     e.slowest_impact = std::ranges::min(approaches);
-    const GrazingDoubt grazing = grazing_doubt(approaches, e.duration);
-    e.near_grazing = grazing.impacts;
-    e.doubt = grazing.doubt;
+    double squares = 0;
+    for (const double approach : approaches) squares += approach * approach;
+    const double typical = std::sqrt(squares / static_cast<double>(approaches.size()));
+    for (const double approach : approaches)
+        if (approach < kGrazing * typical) {
+            ++e.near_grazing;
+            e.doubt += std::log(typical / approach) / e.duration;
+        }
     if (e.near_grazing > 0)
         e.warnings.push_back(fmt::format(
             "{} of {} impacts are near grazing (slower than {:g} of the typical approach speed): the linearized impact "
@@ -183,24 +194,6 @@ void judge_impacts(const std::vector<TangentTouch>& touches, Exponents& e) {
 }
 
 }  // namespace
-
-double standard_error(const Eigen::ArrayXd& blocks, double mean) {
-    const auto n = static_cast<double>(blocks.size());
-    return std::sqrt((blocks - mean).square().sum() / (n * (n - 1)));
-}
-
-GrazingDoubt grazing_doubt(std::span<const double> approaches, double duration) {
-    double squares = 0;
-    for (const double approach : approaches) squares += approach * approach;
-    const double typical = std::sqrt(squares / static_cast<double>(approaches.size()));
-    GrazingDoubt out;
-    for (const double approach : approaches)
-        if (approach < kGrazing * typical) {
-            ++out.impacts;
-            out.doubt += std::log(typical / approach) / duration;
-        }
-    return out;
-}
 
 const char* Exponents::against_chaos() const {
     if (lambda.empty()) return "the hub's motion is prescribed and the beam rigid";

@@ -4,9 +4,7 @@
 // intervals (Benettin et al. 1980). The mean logarithmic growth of their lengths gives the exponents.
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -57,17 +55,6 @@ struct Exponents {
     bool chaotic() const { return chaos() == Chaos::shown; }
 };
 
-// The standard error of the mean of several blocks.
-double standard_error(const Eigen::ArrayXd& blocks, double mean);
-
-// Near-grazing impacts, slower than kGrazing of the root mean square speed, and the amount by which they may make the
-// largest exponent too large, from the approach speeds of all impacts in this time [s].                          (S74)
-struct GrazingDoubt {
-    long impacts = 0;
-    double doubt = 0;  // [1/s]
-};
-GrazingDoubt grazing_doubt(std::span<const double> approaches, double duration);
-
 // Nothing if this problem has a tangent flow, else the reason and the remedy: models beyond first order have none.
 std::optional<std::string> tangent_refusal(const Problem& problem);
 
@@ -76,7 +63,7 @@ std::optional<std::string> tangent_refusal(const Problem& problem);
 Exponents lyapunov_exponents(const Problem& problem, const ExponentsRequest& request, const Progress& progress = {});
 
 // If `exponents` of this request show chaos, continues the motion for as long again. If neighbouring motions no longer
-// diverge there, the motion had not settled but was a sensitive transient. Progress and exceptions as above. (S89a)
+// diverge there, the motion had not settled but was a sensitive transient. Progress and exceptions as above. (S74)
 void confirm_chaos(const Problem& problem, const ExponentsRequest& request, Exponents& exponents,
                    const Progress& progress = {});
 

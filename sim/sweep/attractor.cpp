@@ -2,12 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <variant>
 
 #include "sim/cam/cam_shape.hpp"
-#include "sim/orbit/constants.hpp"
-#include "sim/orbit/exponents.hpp"
 #include "sim/sweep/constants.hpp"
 
 namespace beamcam::sim {
@@ -72,38 +68,6 @@ bool is_near_period(const Scale& scale, Strobes s) {
     return false;
 }
 
-LargestExponent exponent_of(const Problem& problem, Strobes s) {
-    std::vector<double> growth;
-    for (const Strobe& strobe : s.subspan(1)) growth.push_back(strobe.growth);
-    LargestExponent out;
-    if (growth.size() < kExponentBlocks || std::isnan(growth.back())) return out;
-    const std::size_t turns = growth.size();
-    const auto sum = [&](std::size_t from, std::size_t to) {
-        return std::accumulate(growth.begin() + static_cast<std::ptrdiff_t>(from),
-                               growth.begin() + static_cast<std::ptrdiff_t>(to), 0.0);
-    };
-    const auto mean = [&](std::size_t from, std::size_t to) { return sum(from, to) / static_cast<double>(to - from); };
-    const double per_turn = mean(0, turns);
-    out.value = per_turn / cam_period(problem);
-    out.error = 0;
-    if (!std::isfinite(per_turn)) return out;
-    Eigen::ArrayXd blocks(kExponentBlocks);
-    for (std::size_t b = 0; b < kExponentBlocks; ++b)
-        blocks[static_cast<Eigen::Index>(b)] = mean(b * turns / kExponentBlocks, (b + 1) * turns / kExponentBlocks);
-    out.error = standard_error(blocks, per_turn) / cam_period(problem);
-    out.late_growth = sum(turns / 2, turns);
-    return out;
-}
-
-// For a motion without a period.                                                                             (S89)
-AttractorClass class_without_period(const LargestExponent& exponent, bool near_period) {
-    const double sure = kSureErrors * exponent.error;
-    if (exponent.value > sure + exponent.doubt && exponent.late_growth > kLateGrowth) return AttractorClass::chaotic;
-    // A negative exponent implies a period that is not yet found.
-    if (near_period || exponent.value < -sure) return AttractorClass::unsettled;
-    return AttractorClass::aperiodic;
-}
-
 bool nothing_moves(const Problem& problem, const Scale& scale, Strobes s) {
     const bool still = !problem.cam || problem.cam->speed == 0 || cam_shape(problem)->largest_slope() == 0;
     return still && mismatch(scale, s, 1) < kSameState &&
@@ -114,12 +78,6 @@ bool nothing_moves(const Problem& problem, const Scale& scale, Strobes s) {
 
 bool has_section(AttractorClass kind) {
     return kind == AttractorClass::periodic || kind == AttractorClass::chaotic || kind == AttractorClass::aperiodic;
-}
-
-Attractor with_exponent(Attractor attractor, const LargestExponent& exponent) {
-    attractor.exponent = exponent;
-    attractor.kind = class_without_period(exponent, false);
-    return attractor;
 }
 
 Attractor classify(const Problem& problem, const SampledMotion& motion) {
@@ -146,9 +104,6 @@ Attractor classify(const Problem& problem, const SampledMotion& motion) {
     const auto impacts = [&](std::size_t from, std::size_t to) {
         return static_cast<double>(s[to].impacts - s[from].impacts);
     };
-    out.exponent = exponent_of(problem, s);
-    if (!motion.approaches.empty())
-        out.exponent.doubt = grazing_doubt(motion.approaches, static_cast<double>(turns) * cam_period(problem)).doubt;
     // The period of the last third must hold for all states.
     std::size_t n = period_of(scale, s.last(s.size() / 3 + 1));
     if (n == 0) n = period_of(scale, s);
@@ -160,7 +115,7 @@ Attractor classify(const Problem& problem, const SampledMotion& motion) {
         out.impacts_per_period = impacts(turns - n, turns);
         return out;
     }
-    if (s.size() >= kFewestTurns) out.kind = class_without_period(out.exponent, is_near_period(scale, s));
+    if (s.size() >= kFewestTurns && !is_near_period(scale, s)) out.kind = AttractorClass::aperiodic;
     out.impacts_per_period = impacts(0, turns) / static_cast<double>(turns);
     return out;
 }

@@ -1,4 +1,4 @@
-// Classification of a motion after its transient. MODEL.md (S86)–(S89b).
+// Classification of a motion after its transient. MODEL.md (S86)–(S89).
 #pragma once
 
 #include <span>
@@ -11,8 +11,8 @@ enum class AttractorClass {
     rest,          // nothing moves
     following,     // the beam never leaves the cam
     periodic,      // (n, m): n turns of the cam, m impacts
-    chaotic,       // the largest exponent exceeds three times its error
-    aperiodic,     // no period, or one that depends on rounding, and an exponent that is zero, unknown or doubtful
+    chaotic,       // no period, and the exponents that the sweep asked for show chaos
+    aperiodic,     // no period
     over_the_top,  // the beam leaves the half plane of the cam
     unsettled      // the transient is not over, or the integration failed
 };
@@ -27,25 +27,16 @@ inline std::span<const Named<AttractorClass>> names(AttractorClass) {
 // True if samples of a motion of this class form a section of its attractor.
 bool has_section(AttractorClass kind);
 
-// The largest Lyapunov exponent over the samples [1/s], with the standard error from blocks. NaN: unknown; −∞:
-// sustained contact annihilates all differences.
-struct LargestExponent {
-    double value = kNan, error = kNan;
-    double late_growth = kNan;  // logarithm of the growth of differences in the later half of the turns
-    double doubt = 0;           // amount by which near-grazing impacts may make it too large (S74) [1/s]
-};
-
 struct Attractor {
     AttractorClass kind = AttractorClass::unsettled;
     int period = 0;                    // turns of the cam; 0: none
     double impacts_per_period = kNan;  // without a period: per turn
-    LargestExponent exponent;
+    // The largest Lyapunov exponent and its standard error [1/s]. NaN: not asked for, or unknown; −∞: sustained contact
+    // annihilates all differences.
+    double exponent = kNan, exponent_error = kNan;
 };
 
-// The class of a motion without period, given its exponent.                                                    (S89)
-Attractor with_exponent(Attractor attractor, const LargestExponent& exponent);
-
-// (S86)–(S89)
+// The class by the states alone, never `chaotic`. (S86)–(S88)
 Attractor classify(const Problem& problem, const SampledMotion& motion);
 
 }  // namespace beamcam::sim

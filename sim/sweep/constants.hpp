@@ -16,13 +16,9 @@ inline constexpr std::size_t kFewestTurns = 12;     // least number of turns for
 inline constexpr double kDifferenceNoise = 1e-7;    // of the lift: smaller changes of a difference are ignored
 inline constexpr double kSettledShare = 0.1;        // of a difference: largest distance of its extrapolated limit
 inline constexpr double kVanishingMismatch = 0.02;  // of the lift: a smaller distance from a period may still vanish
-inline constexpr std::size_t kExponentBlocks = 10;  // blocks of the average
 inline constexpr double kSettledTolerances = 10;    // error of a settled motion, in units of rtol
-inline constexpr long kLaterTurns = 1000;  // least continuation of a chaotic motion: milliseconds by the closed forms
-inline constexpr double kNearbySpeed =
-    1e-10;                                   // of the cam's speed: a change that a period survives, a million roundings
-inline constexpr int kCarriedRounds = 8;     // Newton iterations that move a carried state to the surface
-inline constexpr double kWholeTurn = 1e-12;  // of the number of turns: rounding of a time in turns
+inline constexpr int kCarriedRounds = 8;            // Newton iterations that move a carried state to the surface
+inline constexpr double kWholeTurn = 1e-12;         // of the number of turns: rounding of a time in turns
 
 // ---- the rigid beam between impacts ----
 inline constexpr int kSurfacePlaces = 128;       // around the turn, to begin with: then halved where bounds ask for it
@@ -36,12 +32,9 @@ inline constexpr double kAngleRounding = 2e-16;    // [rad] rounding of an angle
 inline constexpr double kShortestAdvance = 1e-15;  // [s]
 inline constexpr double kTouchInstant = 1e-16;     // of the cam's turn: rounding of the touch's instant
 inline constexpr int kMaxSurfaceIterations = 60;   // Newton's method with bisection
-// Turns before the samples in which the tangent aligns with the direction of largest growth.
-inline constexpr long kWarmUp = 20;
-inline constexpr double kFarFromAway = 1.5;         // [rad] from the cam's axis: a little less than π/2
-inline constexpr long kPlacesPerReport = 16384;     // comparisons with the surface between two calls of `progress`
-inline constexpr double kLargestDifference = 1e50;  // tangents are rescaled beyond this and below its inverse
-inline constexpr double kSeriesReach = 0.9;         // of the length that the last terms of the series allow
-inline constexpr double kLongestTurn = 1;           // [rad] of a series without gravity, which is a polynomial
+inline constexpr double kFarFromAway = 1.5;        // [rad] from the cam's axis: a little less than π/2
+inline constexpr long kPlacesPerReport = 16384;    // comparisons with the surface between two calls of `progress`
+inline constexpr double kSeriesReach = 0.9;        // of the length that the last terms of the series allow
+inline constexpr double kLongestTurn = 1;          // [rad] of a series without gravity, which is a polynomial
 
 }  // namespace beamcam::sim

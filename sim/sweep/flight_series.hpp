@@ -1,13 +1,11 @@
-// The Taylor series of the rigid beam's flight, θ̈ = α − k cos θ, which is exact to rounding over its `length`, and of a
-// tangent along it. MODEL.md (S83).
+// The Taylor series of the rigid beam's flight, θ̈ = α − k cos θ, which is exact to rounding over its `length`.
+// MODEL.md (S83).
 #pragma once
 
 namespace beamcam::sim {
 
-// A state and, optionally, a tangent.
 struct RodState {
-    double theta = 0, rate = 0;      // [rad], [rad/s]
-    double d_theta = 0, d_rate = 0;  // of the tangent
+    double theta = 0, rate = 0;  // [rad], [rad/s]
     bool operator==(const RodState&) const = default;
 };
 
@@ -15,23 +13,19 @@ class FlightSeries {
   public:
     FlightSeries(double k, double alpha) : k_(k), alpha_(alpha) {}
 
-    // Expands the motion from a state; `tangent`: also that of the tangent.
-    void expand(const RodState& from, bool tangent);
+    // Expands the motion from a state.
+    void expand(const RodState& from);
     double length() const { return length_; }  // [s]
-    double theta(double dt) const { return value(a_, dt); }
-    double rate(double dt) const { return slope(a_, dt); }
-    RodState at(double dt) const;
-    double acceleration(double theta) const;
+    double theta(double dt) const;
+    double rate(double dt) const;
+    RodState at(double dt) const { return {theta(dt), rate(dt)}; }
 
   private:
     static constexpr int kOrder = 18;
-    static double value(const double* a, double dt);  // Σ a_j dtʲ
-    static double slope(const double* a, double dt);
 
     double k_, alpha_;
-    double a_[kOrder + 1], d_[kOrder + 1];
+    double a_[kOrder + 1];  // θ = Σ a_j dtʲ
     double length_ = 0;
-    bool tangent_ = false;
 };
 
 }  // namespace beamcam::sim

@@ -11,12 +11,10 @@
 
 namespace beamcam::sim {
 
-SampledMotion RigidMotion::follow(const Progress& progress, bool until_return) {
+SampledMotion RigidMotion::follow(const Progress& progress) {
     progress_ = &progress;
     while (turn_ < span_.to && !motion_.over_the_top) {
-        if (until_return && returned_) break;
         report();
-        with_tangent_ = turn_ >= span_.from - kWarmUp;
         in_contact_ ? stay_in_contact() : fly();
     }
     motion_.end.y = {mirrored_.side * state_.theta, mirrored_.side * state_.rate};
@@ -33,12 +31,7 @@ void RigidMotion::report() {
 // One Taylor series, or its part up to a touch.
 void RigidMotion::fly() {
     left_ = true;
-    if (with_tangent_ && state_.d_theta == 0 && state_.d_rate == 0) {  // first flight, or after sustained contact
-        annihilated_ = true;
-        state_.d_theta = 1;
-        state_.d_rate = 1 / period_;
-    }
-    series_.expand(state_, with_tangent_);
+    series_.expand(state_);
     const double rest = end() - s_, h = std::min(series_.length(), rest);
     const std::optional<double> touch = first_touch(h);
     const double dt = touch.value_or(h);
@@ -50,12 +43,6 @@ void RigidMotion::fly() {
     touched_ = false;
     move_to(until);
     if (touch) impact();
-    const double size = std::hypot(state_.d_theta, state_.d_rate * period_);
-    if (size > kLargestDifference || (size > 0 && size < 1 / kLargestDifference)) {
-        growth_ += std::log(size);
-        state_.d_theta /= size;
-        state_.d_rate /= size;
-    }
 }
 
 // The beam points away from the cam at an end of the interval, or at a turning point in it.                 (S80)
@@ -148,10 +135,6 @@ void RigidMotion::impact() {
         return rest_on(c);
     }
     sample_impact(c, after);
-    // The saltation matrix [[−e, 0], [(1 + e)(θ̈ − θ̈_c)/w, −e]].                                             (S85)
-    const double fall = series_.acceleration(c.angle) - surface_.acceleration(c);
-    state_.d_rate = (1 + kept) * fall / w * state_.d_theta - kept * state_.d_rate;
-    state_.d_theta *= -kept;
     state_.rate = after;
     if (slow) lift_after_impact();
 }
@@ -166,29 +149,24 @@ bool RigidMotion::sums_up_chatter(const SurfaceAngle& c, const Bounce& bounce) c
     return is_steady(pull, last.lever * surface_.push(last));
 }
 
-// Sustained contact begins, which annihilates the tangent.
 void RigidMotion::rest_on(const SurfaceAngle& c) {
     in_contact_ = true;
-    motion_.rested = true;
-    state_ = {c.angle, surface_.rate(c), 0, 0};
+    state_ = {c.angle, surface_.rate(c)};
 }
 
 // Sustained contact until the cam falls away faster than the beam.
 void RigidMotion::stay_in_contact() {
     const auto at = [&](double s) {
         const SurfaceAngle c = surface_.at(s);
-        return RodState{c.angle, surface_.rate(c), 0, 0};
+        return RodState{c.angle, surface_.rate(c)};
     };
     if (surface_.always_pulls()) return lift(s_ + 0.5 * period_);
     double from = end(), to = from;
-    std::optional<std::size_t> window;  // none: the cam already falls away
-    for (std::size_t i = 0; i < surface_.lifts().size(); ++i)
+    for (const CamSurface::Lift& lift : surface_.lifts())
         for (const double turn : {-period_, 0.0, period_}) {
-            const CamSurface::Lift& lift = surface_.lifts()[i];
             if (!(lift.to + turn > s_) || !(std::max(lift.from + turn, s_) < from)) continue;
             from = std::max(lift.from + turn, s_);
             to = lift.to + turn;
-            window = lift.from + turn > s_ ? std::optional(i) : std::nullopt;
         }
     observe(from, at);
     state_ = at(from);
@@ -197,16 +175,7 @@ void RigidMotion::stay_in_contact() {
     move_to(from);
     if (ends) return;
     end_lasting_sample();
-    if (window) record_lift(*window);
     lift(s_ + stays);
-}
-
-// Two lifts at the same phase have the same state, so the motion between them repeats.                      (S89b)
-void RigidMotion::record_lift(std::size_t window) {
-    last_lifts_.resize(surface_.lifts().size());
-    std::optional<Return>& last = last_lifts_[window];
-    if (last && !returned_) returned_ = Return{turn_ - last->turns, motion_.impacts - last->impacts};
-    last = Return{turn_, motion_.impacts};
 }
 
 // Flight begins on the surface. No touch is possible in the first half of the interval with f < 0.
@@ -244,12 +213,12 @@ void RigidMotion::observe(double until, At&& at) {
             const double s = (static_cast<double>(k) + phase) * period_;
             const long turn = turn_ + k;
             const bool first = turn == 0 && s == 0 && s_ == 0;  // the initial state
-            if ((s > s_ || first) && turn >= span_.from && turn < span_.to) visit(turn, s);
+            if ((s > s_ || first) && turn >= span_.from && turn < span_.to) visit(s);
         }
     };
     if (sampling_.kind == SampleKind::section)
-        each(section_phase_, [&](long, double s) { motion_.samples.push_back(sample(s, at(s))); });
-    each(kStrobePhase, [&](long turn, double s) { strobe(turn, at(s)); });
+        each(section_phase_, [&](double s) { motion_.samples.push_back(sample(s, at(s))); });
+    each(kStrobePhase, [&](double s) { strobe(at(s)); });
 }
 
 }  // namespace beamcam::sim

@@ -1,10 +1,9 @@
 // The motion of a rigid beam with frictionless impulsive contact over thousands of cam turns: flight as a Taylor
 // series, impacts by bounds on the closed form of the cam's surface, sustained contact by the sign of the contact
-// force. The impacts agree with those of a Run within its tolerance. MODEL.md (S80)–(S85).
+// force. The impacts agree with those of a Run within its tolerance. MODEL.md (S80)–(S84).
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "sim/run/chatter.hpp"
 #include "sim/run/simulate.hpp"
@@ -22,14 +21,8 @@ class RigidMotion {
 
     // `start`: initial state; null: that of the problem.
     RigidMotion(const Problem& problem, const Sampling& sampling, const InitialState* start);
-    // To be called once. `until_return`: stop once the motion is known to be periodic. Throws Interrupted.
-    SampledMotion follow(const Progress& progress, bool until_return = false);
-    // Turns and impacts between two lifts at the same phase, and therefore in the same state: the period (S89b).
-    struct Return {
-        long turns = 0, impacts = 0;
-        bool operator==(const Return&) const = default;
-    };
-    const std::optional<Return>& returned() const { return returned_; }
+    // To be called once. Throws Interrupted.
+    SampledMotion follow(const Progress& progress);
 
   private:
     // The problem with the beam on the counter-clockwise side of the disc, mirrored in the X axis if necessary.
@@ -51,12 +44,11 @@ class RigidMotion {
     bool sums_up_chatter(const SurfaceAngle& c, const Bounce& bounce) const;
     void rest_on(const SurfaceAngle& c);
     void lift(double until);
-    void record_lift(std::size_t window);
     void lift_after_impact();
     void move_to(double s);
     template <class At>
     void observe(double until, At&& at);
-    void strobe(long turn, const RodState& state);
+    void strobe(const RodState& state);
     MotionSample sample(double s, const RodState& state) const;
     void sample_impact(const SurfaceAngle& c, double rate_after);  // NaN: sustained contact follows
     void end_lasting_sample();
@@ -80,17 +72,13 @@ class RigidMotion {
     long turn_ = 0;  // whole turns since the start
     double s_ = 0;   // time within the turn [s]
     RodState state_;
-    bool in_contact_ = false;                        // in sustained contact
-    std::vector<std::optional<Return>> last_lifts_;  // for each lift interval of the surface: turn and impacts
-    std::optional<Return> returned_;
+    bool in_contact_ = false;    // in sustained contact
     bool sample_lasts_ = false;  // sustained contact follows the last sample
     bool touched_ = false;       // the flight starts on the surface
     double clear_until_ = 0;     // no touch is possible before this time, after a lift
     double last_rebound_ = 0;
     double section_phase_;  // fraction of a turn: 0 … 1
-    bool with_tangent_ = false, left_ = false;
-    bool annihilated_ = false;                  // the tangent was restarted since the last strobe
-    double growth_ = 0, growth_at_strobe_ = 0;  // logarithms of the tangent's length
+    bool left_ = false;     // the beam left the cam since the last strobe
     long kept_impacts_ = 0;
     const Progress* progress_ = nullptr;
     long places_ = 0;  // that were compared with the surface, and series

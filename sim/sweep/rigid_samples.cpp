@@ -1,22 +1,14 @@
 // The samples and strobes of RigidMotion.
 #include <cmath>
-#include <limits>
 
 #include "sim/sweep/rigid_motion.hpp"
 
 namespace beamcam::sim {
 
-void RigidMotion::strobe(long turn, const RodState& state) {
-    Strobe out{mirrored_.side * state.theta, mirrored_.side * state.rate, kept_impacts_, in_contact_, left_};
-    const double size = std::hypot(state.d_theta, state.d_rate * period_);
-    const double growth = size > 0 ? growth_ + std::log(size) : 0;
-    annihilated_ = annihilated_ || !(size > 0);
-    if (turn > span_.from)
-        out.growth = annihilated_ ? -std::numeric_limits<double>::infinity() : growth - growth_at_strobe_;
-    growth_at_strobe_ = growth;
-    annihilated_ = false;
+void RigidMotion::strobe(const RodState& state) {
+    motion_.strobes.push_back(
+        {mirrored_.side * state.theta, mirrored_.side * state.rate, kept_impacts_, in_contact_, left_});
     left_ = !in_contact_;
-    motion_.strobes.push_back(out);
 }
 
 MotionSample RigidMotion::sample(double s, const RodState& state) const {
@@ -35,7 +27,6 @@ void RigidMotion::sample_impact(const SurfaceAngle& c, double rate_after) {
     sample_lasts_ = false;
     if (turn_ < span_.from) return;
     ++kept_impacts_;
-    motion_.approaches.push_back(c.lever * (surface_.rate(c) - state_.rate));
     if (sampling_.kind != SampleKind::impacts) return;
     MotionSample out = sample(s_, state_);
     out[kContactX] = c.lever - problem_.hub.radius;

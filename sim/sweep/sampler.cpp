@@ -44,7 +44,6 @@ void Sampler::resume(double, const std::vector<double>& y, const Phase& phase) {
     if (step_) step_->set_phase(phase);
     if (peaks_) peaks_->finder.set_phase(phase);
     if (!phase.touching) left_ = true;
-    if (phase.held && system_.problem().beam.model == ModelKind::rigid) motion_.rested = true;
     motion_.end = {y, phase};
 }
 

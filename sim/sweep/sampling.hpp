@@ -35,6 +35,7 @@ struct Sampling {
     bool rising = true;
     CamSpan transient{200, {}}, keep{50, {}};
     double end_time = std::numeric_limits<double>::infinity();  // latest end of a motion [s]
+    bool exponents = false;  // also compute the largest Lyapunov exponent of each motion, which may show chaos
 
     bool operator==(const Sampling&) const = default;
 };
@@ -85,20 +86,18 @@ struct Strobe {
     long impacts = 0;       // since the start of the samples
     bool touching = false;  // in sustained contact
     bool left = false;      // the beam left the cam since the previous strobe
-    double growth = kNan;   // logarithmic growth of the tangent since the previous strobe; NaN: unknown
 };
 
 struct SampledMotion {
     std::vector<MotionSample> samples;
     std::vector<Strobe> strobes;  // one for each turn of the samples
-    // Approach speeds of the impacts in these turns [m/s]; empty if the growth at strobes is unknown.
-    std::vector<double> approaches;
-    bool over_the_top = false;  // the motion ended because the beam pointed away from the cam
-    bool rested = false;        // a rigid beam was in sustained impulsive contact, which annihilates all differences
-    InitialState end;           // initial state of the motion at the next parameter
-    long impacts = 0;           // including the transient
-    double accuracy = 0;        // approximate error of angles [rad]
-    std::string failure;        // reason of a failed integration
+    bool over_the_top = false;    // the motion ended because the beam pointed away from the cam
+    InitialState end;             // initial state of the motion at the next parameter
+    long impacts = 0;             // including the transient
+    double accuracy = 0;          // approximate error of angles [rad]
+    std::string failure;          // reason of a failed integration
+
+    bool has_end() const { return !over_the_top && failure.empty(); }
 };
 
 }  // namespace beamcam::sim

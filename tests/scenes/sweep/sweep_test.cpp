@@ -53,6 +53,21 @@ TEST(SweepCommand, WritesARowASampleWithTheColumnsThatScriptsRelyOn) {
     for (std::size_t i = 1; i < rows.size(); ++i) ASSERT_EQ(rows[i].size(), rows[0].size());
 }
 
+TEST(SweepCommand, ComputesExponentsOnlyWhereTheyAreAskedFor) {
+    Folder folder;
+    folder.write("s.json", kSweptScene);
+    for (const char* asked : {"", " --exponents"}) {
+        const Finished done = shell(folder, std::string("$BEAMCAM sweep s.json -q --over cam.speed=30,45,59") + asked);
+        ASSERT_EQ(done.code, 0) << done.err;
+        const auto rows = rows_of(done.out);
+        ASSERT_GT(rows.size(), 3u);
+        for (std::size_t i = 1; i < rows.size(); ++i) {
+            EXPECT_EQ(rows[i][5].empty(), *asked == 0) << rows[i][0] << asked;
+            EXPECT_EQ(rows[i][6].empty(), *asked == 0) << rows[i][0] << asked;
+        }
+    }
+}
+
 TEST(SweepCommand, OfPeaksWritesOneRowForEachMotion) {
     Folder folder;
     folder.write("s.json", R"({"beam": {"modes": 1}, "sweep": {"over": [{"key": "cam.speed", "values": [3, 5]}],
@@ -275,6 +290,9 @@ TEST(SweepCommand, RejectsWithAMessage) {
           {"--over 'cam.speed=100:900 rpm:9'", 2, "some of its numbers have a unit"},
           {"--over 'cam.speed=100 rpm:900 rpm:0.5'", 2, "some of its numbers have a unit"},
           {"--over 'cam.speed=300 rpm,400'", 2, "some of its numbers have a unit"},
+          {"--set beam.model=exact --exponents", 2, "the model exact has no tangent flow"},
+          {"--over cam.speed=40:44:3 --over gravity=9:10:2 --diagram d.pdf --value exponent", 2,
+           "the sweep computes no exponents"},
           {"-o - --shard 1/2", 2, "name the table of the whole sweep"},
           {"-o a.csv --shard 1/2 --diagram d.pdf", 2, "collect the parts first"},
           {"--over cam.eccentricity=0:0.2:3n", 3, "sweep at cam.eccentricity = 0.1"},

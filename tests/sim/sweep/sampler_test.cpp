@@ -220,26 +220,5 @@ TEST(MotionFrom, IsTheRestOfALongerMotion) {
     EXPECT_GT(impacts, 8u);
 }
 
-// Sustained contact annihilates differences, but they grow by ten decades between two of these returns.      (S89b)
-TEST(SweepPoint, APeriodSurvivesASmallChangeOfTheSpeed) {
-    Problem p = turning_cam(ModelKind::rigid, ContactModel::restitution);
-    p.cam->centre = {0.25, 0};
-    p.cam->radius = 0.1;
-    p.contact.restitution = 0.5;
-    p.initial.angle = 25 * std::numbers::pi / 180;
-    Sampling turns = sampling(SampleKind::impacts);
-    turns.transient = {40, {}};
-    turns.keep = {10, {}};
-    const auto attractor = [&](double eccentricity, double speed) {
-        p.cam->eccentricity = eccentricity;
-        p.cam->speed = speed;
-        return sweep_point(p, turns, nullptr, {}).attractor;
-    };
-    EXPECT_EQ(attractor(0.004, 48.262148011669282).kind, AttractorClass::aperiodic);  // returns after 312 turns
-    const Attractor stable = attractor(0.007 / 3, 48.262148011669282);
-    EXPECT_EQ(stable.kind, AttractorClass::periodic);
-    EXPECT_EQ(stable.period, 20);
-}
-
 }  // namespace
 }  // namespace beamcam::sim::testing
