@@ -11,7 +11,6 @@
 #include "output/data/records.hpp"
 #include "scenes/commands/commands.hpp"
 #include "sim/beam/model.hpp"
-#include "sim/problem/constants.hpp"
 
 namespace beamcam::scenes {
 namespace {

@@ -19,6 +19,9 @@
 
 namespace beamcam::sim {
 
+// Iterations of Newton's method, with bisection as a safeguard: bisection alone needs 52.
+inline constexpr int kMostIterations = 60;
+
 // Quadrature with n nodes, exact for polynomials up to degree 2n − 1.
 struct Quadrature {
     Eigen::VectorXd x;  // nodes in (0, length), ascending [m]
@@ -96,9 +99,8 @@ double find_root(F&& f, double a, double b) {
 // its slope. Without a root the end that is nearest to one.
 template <class F>
 double increasing_root(F&& f, double low, double high) {
-    constexpr int kMostSteps = 100;  // bisection alone needs 52
     double x = 0.5 * (low + high);
-    for (int i = 0; i < kMostSteps; ++i) {
+    for (int i = 0; i < kMostIterations; ++i) {
         const auto [value, slope] = f(x);
         (value > 0 ? high : low) = x;
         double next = x - value / slope;
@@ -124,6 +126,9 @@ inline std::optional<Vec2> vertex(const Vec2& a, const Vec2& b, const Vec2& c) {
 // A function may rise above its parabola by this share of the parabola's rise above the points through which it passes.
 // The share is 0.12 for a vibration with eight points in a period.
 inline constexpr double kParabolaError = 0.25;
+
+// Of a function's range: a maximum that is higher by less is not searched for.
+inline constexpr double kNegligibleRise = 1e-6;
 
 // The largest value of f by parabolas, one after the other, from three points of f in the order of x. Ends earlier
 // where the parabola does not promise `negligible` more than `to_beat`.

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "sim/beam/constants.hpp"
-
 namespace beamcam::sim {
+
+constexpr double kLostInertia = 1e-9;  // of the straight beam's inertia: anything less counts as not positive
 
 ModalModel::ModalModel(const Problem& problem) : Model(problem), kind_(problem.beam.model) {
     auto tables = std::make_shared<Tables>();

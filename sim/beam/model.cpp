@@ -3,12 +3,13 @@
 #include <algorithm>
 
 #include "sim/base/linear_algebra.hpp"
-#include "sim/beam/constants.hpp"
 #include "sim/beam/exact_model.hpp"
 #include "sim/beam/modal_model.hpp"
 #include "sim/beam/second_order_model.hpp"
 
 namespace beamcam::sim {
+
+constexpr double kUncoupledDamping = 1e-9;  // of the largest entry of C_d: smaller off-diagonal ones are rounding
 
 Model::Model(const Problem& problem)
     : length_(problem.beam.length),

@@ -6,11 +6,12 @@
 #include <limits>
 
 #include "sim/base/linear_algebra.hpp"
-#include "sim/beam/constants.hpp"
 #include "sim/beam/model.hpp"
 
 namespace beamcam::sim {
 namespace {
+
+constexpr int kShapePlaces = 101;  // points of a natural mode: a polyline of 20 waves looks smooth
 
 // Small displacements are linear in the coordinates: y = (∂Y/∂ξ) ξ at rest, the state of the model.
 std::vector<Vec2> shape_of(const Model& model, const Eigen::VectorXd& xi) {

@@ -5,9 +5,11 @@
 
 #include "sim/base/linear_algebra.hpp"
 #include "sim/base/ode.hpp"
-#include "sim/beam/constants.hpp"
 
 namespace beamcam::sim {
+
+constexpr int kPlacesPerWave = 32;       // where natural modes are evaluated for their largest values
+constexpr double kBetweenPlaces = 1.05;  // a sine between places a 32nd of a half wave apart: 1.0012
 
 // A free hub condenses to a rotation of the frame against the mean rigid one.
 NaturalModes::NaturalModes(const Model& of, const Problem& problem) {

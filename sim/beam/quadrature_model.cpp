@@ -5,9 +5,11 @@
 
 #include "sim/base/linear_algebra.hpp"
 #include "sim/base/ode.hpp"
-#include "sim/beam/constants.hpp"
 
 namespace beamcam::sim {
+
+// The step of the finite differences of centrifugal forces [length, or rad]; their error is of fourth order, 1e-12.
+constexpr double kDeflectionDifference = 1e-3;
 
 QuadratureModel::QuadratureModel(const Problem& problem, int nodes) : Model(problem) {
     rule_ = gauss_legendre(nodes, length_);

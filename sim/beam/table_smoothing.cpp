@@ -4,10 +4,15 @@
 #include <cmath>
 
 #include "sim/base/numerics.hpp"
-#include "sim/beam/constants.hpp"
 
 namespace beamcam::sim {
 namespace {
+
+// Tables: fewer values do not show that they are multiples of a step; and the largest distance from a multiple, as a
+// share of the step, to which a table in text rounds its values.
+constexpr std::size_t kFewestSteppedValues = 20;
+constexpr double kStepError = 0.15;
+constexpr double kLeastLogSmoothing = -14;  // of the dimensionless λ: the spline passes through the points
 
 // Reinsch's equations (R + λQᵀQ)c = Qᵀy, s = y − λQc for the second derivatives c at the inner points (S93). Times are
 // divided by their mean distance, so that λ has no dimension.

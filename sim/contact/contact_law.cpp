@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "sim/base/assert.hpp"
-#include "sim/contact/constants.hpp"
 
 namespace beamcam::sim {
 

@@ -4,9 +4,15 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/dynamics/constants.hpp"
+#include "sim/base/numerics.hpp"
 
 namespace beamcam::sim {
+
+constexpr double kFootChange = 1e-14;     // of the length: rounding error of the arc position
+constexpr double kLastFootChange = 1e-9;  // of the length: a Newton step this short leaves only rounding errors
+// Intervals of a search along the beam, besides 2 or 4 for each coordinate: more for more curved shapes.
+constexpr int kIntervalsOfModes = 9, kIntervalsOfExact = 13;
+
 ContactGeometry::ContactGeometry(const Problem& problem, const Model& model, const TurningCam& cam)
     : cam_(cam),
       hub_radius_(problem.hub.radius),
@@ -60,7 +66,7 @@ BeamPoint ContactGeometry::foot(const Model& model, double t, double x, ContactS
     BeamPoint at;
     double low = 0, high = length_;
     c.at_end = false;
-    for (int iteration = 0; iteration < kMaxFootSteps; ++iteration) {
+    for (int iteration = 0; iteration < kMostIterations; ++iteration) {
         model.point(x, at);
         if (iteration == 0 || !cam_.is_disc()) c.disc = cam_.disc(t, facing(at));
         const Vec2 d = at.r - c.disc.centre;

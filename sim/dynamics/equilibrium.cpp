@@ -6,11 +6,21 @@
 
 #include "sim/base/linear_algebra.hpp"
 #include "sim/cam/lever.hpp"
-#include "sim/dynamics/constants.hpp"
 #include "sim/dynamics/newton.hpp"
 
 namespace beamcam::sim {
 namespace {
+
+constexpr double kShallowDifference = 0.1;  // of the static penetration: step of finite differences in a stiff contact
+// The load mgL²/(EI) grows by this from one equilibrium to the next; up to 7 are followed. A beam that needs more steps
+// than the second number is a chain: its load is 5·10³.
+constexpr double kLoadStep = 5, kMostLoadSteps = 1000;
+constexpr double kRestingLoadStep = 0.5;   // the same on the cam, which a beam bent in one step would leave
+constexpr double kEquilibriumGap = 1e-10;  // of the length: largest gap of a beam that rests on the cam
+constexpr double kSeparatedPull = 1e-6;    // of K: the spring that pulls a separated iterate back to the cam
+// [rad] of the cam: steps of finite differences of fourth and second order, at which truncation and rounding errors
+// are equal.
+constexpr double kFollowingDifference = 5e-3, kLeavingDifference = 1e-5;
 
 // Static forces of the model at ξ, without contact. They are valid even if `assemble` finds the inertia not positive.
 void static_force(Model& model, const Eigen::VectorXd& xi, Eigen::VectorXd& f) {

@@ -5,9 +5,12 @@
 
 #include "sim/base/assert.hpp"
 #include "sim/beam/shapes.hpp"
-#include "sim/dynamics/constants.hpp"
 
 namespace beamcam::sim {
+
+constexpr double kSingleFoot = 0.5;     // limit of |v″| × distance of the disc; at 1 a second foot can appear
+constexpr double kLeastShapeBound = 3;  // bounds all shapes of a beam that does not reach beyond its hinge
+
 GapBound::GapBound(const Problem& problem, const Model& model, const TurningCam& cam)
     : modes_(model.size() - 1),
       exact_(problem.beam.model == ModelKind::exact),

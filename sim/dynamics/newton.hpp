@@ -4,9 +4,14 @@
 #include <Eigen/Core>
 
 #include "sim/base/linear_algebra.hpp"
-#include "sim/dynamics/constants.hpp"
+#include "sim/base/numerics.hpp"
 
 namespace beamcam::sim {
+
+inline constexpr int kMaxHalvings = 20;            // of one step
+inline constexpr double kNewtonDifference = 1e-7;  // of an unknown's magnitude: step of the finite differences
+inline constexpr double kNewtonConverged = 1e-13;  // of an unknown's magnitude: a converged step
+inline constexpr double kBalanced = 1e-9;          // of the natural forces: largest residual in equilibrium
 
 // Half the difference of f between x + step and x − step.
 template <class F>
@@ -31,7 +36,7 @@ bool newton(F&& function, Eigen::VectorXd& x, const Eigen::VectorXd& scale, cons
         r = r.cwiseQuotient(size).eval();
     };
     residual(x, f);
-    for (int iteration = 0; iteration < kMaxNewtonSteps; ++iteration) {
+    for (int iteration = 0; iteration < kMostIterations; ++iteration) {
         for (Eigen::Index j = 0; j < n; ++j) {
             const Eigen::VectorXd step = difference * scale[j] * Eigen::VectorXd::Unit(n, j);
             jacobian.col(j) = central_difference(residual, x, step) / difference;

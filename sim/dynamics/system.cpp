@@ -7,10 +7,14 @@
 
 #include "sim/base/assert.hpp"
 #include "sim/beam/natural_modes.hpp"
-#include "sim/dynamics/constants.hpp"
 
 namespace beamcam::sim {
 namespace {
+
+// Baumgarte rate: kDecayOfVibration of the lowest bending frequency or, of a rigid beam, kDecayOfPendulum of √(g/L). So
+// it is slower than vibration and faster than the pendulum.
+constexpr double kDecayOfVibration = 0.1, kDecayOfPendulum = 10;
+constexpr double kLeastGravity = 1e-3;  // [m/s²] keeps that rate above zero
 
 // Of a cam with a profile, Hertz's stiffness is that of its largest radius of curvature.
 NormalLaw normal_law_of(const Problem& problem, const TurningCam& cam) {

@@ -14,14 +14,25 @@
 #include "sim/cam/cam_shape.hpp"
 #include "sim/cam/check_profile.hpp"
 #include "sim/cam/lever.hpp"
-#include "sim/dynamics/constants.hpp"
 #include "sim/dynamics/initial.hpp"
 #include "sim/dynamics/system.hpp"
-#include "sim/problem/constants.hpp"
 #include "sim/problem/keys.hpp"
 
 namespace beamcam::sim {
 namespace {
+
+constexpr double kLeastFiniteRestitution = 0.01;  // for dissipation laws with D → ∞ as c → 0
+constexpr double kStartGap = 1e-12;      // of the length, at least of 1 m: smaller overlaps at the start are rounding
+constexpr double kContinuedGap = 1e-9;   // of the same: beam and cam that are said to touch are no farther apart
+constexpr double kSameExponent = 1e-3;   // of a contact exponent that is written with a few digits
+constexpr double kFarRestitution = 0.2;  // of the pre-set restitution from that of impacts: worth a warning
+// Squares, cubes and products of a few numbers between these neither overflow nor vanish.
+constexpr double kSmallestInertia = 1e-60, kLargestInertia = 1e60;  // mass [kg], moment of inertia [kg m²]
+constexpr double kSmallestScale = 1e-30, kLargestScale = 1e30;      // frequency [rad/s], penetration [m]
+constexpr double kSpeedOfLight = 299792458;                         // [m/s]
+// Positions along the beam are sums with the hub's radius, and the gap is a difference of distances: beyond these
+// multiples of the beam's length, rounding leaves fewer than five digits of them.
+constexpr double kMaxHubRadius = 1e6, kMaxCamSize = 1e9;
 
 class Issues {
   public:
@@ -126,12 +137,14 @@ void check_contact(Issues& out, const Problem& p) {
     }
     if (c.model == ContactModel::compliant && c.damping != DampingLaw::none && p.cam && c.restitution >= 0 &&
         c.restitution <= 1) {
-        const double effective = effective_restitution(c.damping, c.restitution);
+        const double effective = effective_restitution(c.damping, c.restitution),
+                     kept = std::max(c.restitution, kLeastFiniteRestitution);
         if (std::fabs(effective - c.restitution) > kFarRestitution)
             out.warning("contact.restitution",
                         fmt::format("the law {} gives impacts the restitution {:.2g} for {:g}; \"damping\": "
-                                    "\"zhang-sharf\" gives {:g}",
-                                    name(c.damping), effective, c.restitution, c.restitution));
+                                    "\"zhang-sharf\" gives {:g}{}",
+                                    name(c.damping), effective, c.restitution, kept,
+                                    kept > c.restitution ? fmt::format(" for \"restitution\": {:g}", kept) : ""));
     }
     if (const auto* f = std::get_if<StickSlipFriction>(&c.friction))
         if (f->static_coefficient && *f->static_coefficient >= 0 && !(*f->static_coefficient >= f->coefficient))

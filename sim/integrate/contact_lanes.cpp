@@ -5,10 +5,16 @@
 
 #include "sim/base/assert.hpp"
 #include "sim/beam/exact_model.hpp"
-#include "sim/integrate/constants.hpp"
 
 namespace beamcam::sim {
 namespace {
+
+// An expansion of order p errs by (β|x − centre|)^(p+1)/(p+1)! of what the mode contributes: this share of rtol at
+// most.
+constexpr double kExpansionTolerance = 1e-2;
+// Even for loose tolerances it reaches no farther than this, [–] of 1/β, a small part of a wave, and of the beam.
+constexpr double kFarthestWave = 0.2, kLongestExpansion = 0.1;
+constexpr double kKeptRange = 1.0 / 3;  // an expansion is kept while the contact stays so far within its range
 
 // β|x − centre| up to which the expansion is accurate.
 double trusted(double rtol) {
@@ -16,20 +22,16 @@ double trusted(double rtol) {
     return std::min(kFarthestWave, std::pow(kExpansionTolerance * rtol * std::tgamma(kNext + 1), 1.0 / kNext));
 }
 
-// The model whose shapes and shortening the beam has; `second-order` shares them with `first-order`.
-std::shared_ptr<const ModalModel> shapes_of(const System& system, const Model& model) {
-    Problem problem = system.problem();
-    if (problem.beam.model == ModelKind::exact) return nullptr;
-    if (const auto* modal = dynamic_cast<const ModalModel*>(&model)) return std::make_shared<ModalModel>(*modal);
-    problem.beam.basis = resolved_basis(problem);
-    problem.beam.model = ModelKind::first_order;
-    return std::make_shared<ModalModel>(problem);
+// Null for `exact`.
+std::shared_ptr<const ModalModel> modal_model_of(const Model& model) {
+    const auto* modal = dynamic_cast<const ModalModel*>(&model);
+    return modal ? std::make_shared<ModalModel>(*modal) : nullptr;
 }
 
 }  // namespace
 
 ContactExpansion::ContactExpansion(System& system)
-    : model_(shapes_of(system, system.model())),
+    : model_(modal_model_of(system.model())),
       n_(static_cast<std::size_t>(system.coordinates()) - 1),
       cam_(system.cam()),
       length_(system.model().length()),

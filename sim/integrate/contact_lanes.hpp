@@ -1,6 +1,6 @@
 // Contact geometry and force at the nodes of a collocation step: MODEL.md §7 and §8 in the beam's own frame, with the
 // shapes expanded about one arc position near the contact, so that no node evaluates a shape. The same templates are
-// used for one instant (T = double) and for eight (T = Lanes), and for all models.
+// used for one instant (T = double) and for eight (T = Lanes), for all models that the collocation integrates.
 #pragma once
 
 #include <memory>
@@ -12,6 +12,8 @@
 #include "sim/dynamics/system.hpp"
 
 namespace beamcam::sim {
+
+inline constexpr int kFootCorrections = 3;  // of the foot by Newton's method, from a foot nearby
 
 BEAMCAM_INLINE void root(double a, double& out) { out = std::sqrt(a); }
 BEAMCAM_INLINE void root(const Lanes& a, Lanes& out) {

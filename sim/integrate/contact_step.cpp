@@ -4,10 +4,29 @@
 #include <cmath>
 
 #include "sim/base/assert.hpp"
-#include "sim/integrate/constants.hpp"
 
 namespace beamcam::sim {
 namespace {
+
+// Steps of sustained contact are kept to a larger share of the tolerance than others in contact: undamped vibration,
+// which their own errors excite, would otherwise limit them.
+constexpr double kHeldShare = 4;
+constexpr int kMostNewton = 25;         // in contact, where the first sweeps find the nodes that touch
+constexpr int kMostNewtonCoupled = 14;  // where sweeps cost more, and a contraction by less is strong coupling
+// Changes of the iteration that no longer fall are rounding once they are below this share of the largest; the stiff
+// force amplifies it. Before the nodes that touch are found, the first sweeps may grow by up to kContactGrowth.
+constexpr double kContactRounding = 1e-11, kContactGrowth = 2;
+constexpr int kContactPatience = 5;
+constexpr double kTwoRoundings = 4e-16;  // of the beam's length, and of the way of the disc's centre
+// Largest of the last two Legendre coefficients, times the length of the step, of the rate of a polynomial that is zero
+// at the start and up to 1 at the nodes: rounding of a gap's rate becomes such a constraint force.
+constexpr double kRoughestRate = 136;
+// Where the damping of a contact decays by more than kFastDecay within a step, an error of a rate becomes a force that
+// no polynomial follows: the iteration may leave only a share of kContactShare. So it is from kSteadyDecay on where the
+// force varies by less than kSteadyForce: in a lasting contact it is the only error. Contractions vary from sweep to
+// sweep; kSlowestContraction is the poorest after a good one.
+constexpr double kFastDecay = 5, kSteadyDecay = 2, kSteadyForce = 1e-2, kSlowestContraction = 0.03;
+constexpr double kDeepest = 0.5;  // of the cam's radius: beyond, the contact leaves its geometry
 
 bool is_steady(const Lanes& force) {
     const double most = largest(force);
@@ -177,11 +196,11 @@ bool ContactStep::improve(const StepTable& table, int corrections) {
 // Rounding of the gap and of its rate. After many turns the disc's place is uncertain by its travel within the rounding
 // of the time, and its velocity by what that turns.
 double ContactStep::depth_rounding() const {
-    return std::max(kDepthRounding * form_.length, kTravelRounding * disc_travel());
+    return std::max(kTwoRoundings * form_.length, kTwoRoundings * disc_travel());
 }
 double ContactStep::rate_rounding() const {
     const double speed = std::fabs(step_.system.problem().cam->speed);
-    return kDepthRounding * form_.length * largest(step_.segment.theta_dot) + kTravelRounding * disc_travel() * speed;
+    return kTwoRoundings * form_.length * largest(step_.segment.theta_dot) + kTwoRoundings * disc_travel() * speed;
 }
 double ContactStep::disc_travel() const {
     const TurningCam& cam = step_.system.cam();

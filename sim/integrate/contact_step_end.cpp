@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/contact/constants.hpp"
-#include "sim/dynamics/constants.hpp"
-#include "sim/integrate/constants.hpp"
-
 namespace beamcam::sim {
+
+constexpr int kMostCuts = 8;                                 // of a step, to end it at an event
+constexpr double kCarriedKick = 0.1;                         // of the tolerance, that the force in between may change
+constexpr double kEndRounding = 1e-13;                       // of a step: the end lies on the event
+constexpr double kLeastLength = 1e-14, kLeastShift = 1e-16;  // [s] below the rounding of any time in a run
+constexpr double kResolvedTurn = 2;  // [rad] of a mode between two instants, which their cubic resolves (S58)
 
 double ContactStepEnd::cut(double error, Ending& ending) {
     double end = event_at_nodes(step_.segment.h, ending);
@@ -122,11 +124,9 @@ double ContactStepEnd::force_event_between_nodes(Ending ending, Ending& found) {
 
 // Penetration and its rate inside the step just solved.
 Guard ContactStepEnd::penetration_at(double after) {
-    ExponentialSegment& s = step_.segment;
-    s.t1 = kNoSolution;  // evaluated, not copied
-    s.ledger_changes = false;
+    const ExponentialSegment& s = step_.segment;
     scratch_.resize(s.end.size());
-    s.value(s.t0 + after, scratch_.data());
+    s.motion_inside(s.t0 + after, scratch_.data());
     ContactKinematics<double> touch;
     touch.dx = contact_.end.dx;
     contact_.evaluate(s.t0 + after, scratch_.data(), touch);

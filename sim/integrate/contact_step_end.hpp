@@ -7,6 +7,8 @@
 
 namespace beamcam::sim {
 
+inline constexpr double kCarried = 1e-5;  // of a step, by which its end may be moved without solving again
+
 class ContactStepEnd {
   public:
     using Ending = TouchSamples::Ending;

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/integrate/constants.hpp"
 #include "sim/integrate/contact_step.hpp"
 
 namespace beamcam::sim {

@@ -16,9 +16,11 @@
 
 #include "sim/base/assert.hpp"
 #include "sim/base/numerics.hpp"
-#include "sim/integrate/constants.hpp"
 
 namespace beamcam::sim {
+
+inline constexpr double kOnKink = 1e-6;        // of an interval: a passing so early means that it starts on the kink
+inline constexpr int kMostEventHalvings = 16;  // then the ends decide: 10⁻⁵ of the interval
 
 // A function of time and its rate.
 struct Guard {

@@ -7,12 +7,36 @@
 #include <utility>
 
 #include "sim/base/assert.hpp"
-#include "sim/integrate/constants.hpp"
 #include "sim/integrate/contact_step_end.hpp"
 #include "sim/integrate/integrator.hpp"
 
 namespace beamcam::sim {
 namespace {
+
+constexpr int kTouchLevels = 8;       // above the lowest, which a contact may use: then another method is better
+constexpr double kLeastStep = 1e-14;  // of the time: rounding
+// A step of flight errs by the power 8 of its length, one in contact by 12 where the force has just set in. A level is
+// a factor √2 in length: below these errors the next step is one level longer, or two.
+constexpr int kFlightOrder = 8, kTouchOrder = 12;
+constexpr double kLongerTouch = 0.02, kMuchLongerTouch = 1e-4;
+constexpr double kShortestFlight = 4e-16, kShortestTouch = 1e-13;  // of the time: rounding; of the force
+constexpr double kShortestTouchEver = 1e-12;                       // [s] no contact is as stiff
+constexpr int kMostSweeps = 12;  // in flight: at a contraction of a half a step half as long is cheaper
+// Changes of the iteration that no longer fall are rounding once they are below this share of the largest.
+constexpr double kFlightRounding = 1e-12;
+// [–] of the period of the fastest mode over 2π: where collocation of a constraint needs shorter steps, rounding rules.
+constexpr double kShortestHeld = 1e-5;
+// Above these damping ratios, in flight and in contact, explicit steps are limited by stability; BDF is used. In flight
+// the other method takes only some steps, which BDF begins at a low order.
+constexpr double kStiffFlight = 20, kStiffContact = 1;
+// [rad] of the fastest vibration in a step of modes that are not the coordinates: where their coupling asks for shorter
+// ones, in flight by its error or in contact as nothing settles, Runge and Kutta's method is as good.
+constexpr double kLeastTurns = 0.5;
+constexpr long kFirstRetry = 32;  // steps of the other method before the next try, twice as many each time
+// Friction that turns over within a small slip is stiff where the beam nearly sticks. A contact that has taken so many
+// steps, shorter than this share of the way to its deepest point or of the fastest mode's 1/ω, is handed over to BDF.
+constexpr long kMostCrawls = 2000;
+constexpr double kCrawl = 1e-3;
 
 // Another method, made when it is first needed, and what it has counted so far.
 struct Fallback {
@@ -295,8 +319,7 @@ class Exponential final : public Integrator {
     void carry_to(double at) {
         ExponentialSegment& s = segment();
         scratch_.resize(s.end.size());
-        s.t1 = std::numeric_limits<double>::infinity();  // evaluated, not copied
-        s.value(at, scratch_.data());
+        s.value_inside(at, scratch_.data());
         s.end = scratch_;
         s.t1 = t_ = at;
     }

@@ -3,11 +3,15 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/integrate/constants.hpp"
 #include "sim/integrate/exponential_segment.hpp"
 #include "sim/integrate/step_errors.hpp"
 
 namespace beamcam::sim {
+
+// Bounds within a step.
+constexpr double kMissedTurning = 1e-6;    // of Θ̇, which its nodal polynomial may miss at any tolerance
+constexpr double kFarthestFromNode = 0.1;  // of the step: no instant is farther from the nearest node
+
 // Bounds of a function of the modes, of its rate and of its second derivative.
 struct Bounded {
     double value = 0, rate = 0, second = 0;

@@ -2,7 +2,6 @@
 // MODEL.md §12.
 #include <optional>
 
-#include "sim/integrate/constants.hpp"
 #include "sim/integrate/exponential_segment.hpp"
 
 namespace beamcam::sim {

@@ -131,14 +131,27 @@ void ExponentialSegment::evolve_all(double t, double s, double* y) const {
     }
 }
 
-void ExponentialSegment::value(double t, double* y) const { evaluate(t, true, y); }
-void ExponentialSegment::value_without_vibration_work(double t, double* y) const { evaluate(t, false, y); }
-
-void ExponentialSegment::evaluate(double t, bool vibration_work, double* y) const {
-    if (t == t1) {
+void ExponentialSegment::value(double t, double* y) const {
+    if (t == t1)
         std::copy(end.begin(), end.end(), y);
-        return;
-    }
+    else
+        evaluate(t, true, y);
+}
+
+void ExponentialSegment::value_without_vibration_work(double t, double* y) const {
+    if (t == t1)
+        std::copy(end.begin(), end.end(), y);
+    else
+        evaluate(t, false, y);
+}
+
+void ExponentialSegment::motion_inside(double t, double* y) const {
+    oscillate(t, y);
+    form_->to_coordinates(y);
+}
+
+// The modes and the frame, with their rates.
+void ExponentialSegment::oscillate(double t, double* y) const {
     const double s = (t - t0) / h;
     double* rates = y + 1 + n_;
     evolve_all(t, s, y);
@@ -150,6 +163,11 @@ void ExponentialSegment::evaluate(double t, bool vibration_work, double* y) cons
         y[0] = theta0 + h * hub().turn(2 * s - 1);
         rates[0] = theta_dot_at(p0 + h * hub().momentum(2 * s - 1), y + 1);
     }
+}
+
+void ExponentialSegment::evaluate(double t, bool vibration_work, double* y) const {
+    const double s = (t - t0) / h;
+    oscillate(t, y);
     const bool ledger = ledger_changes && (touching || vibration_work);  // else it is that at the start
     const bool integrates = ledger || (touching && has_bristle());
     const Lanes weights = integrates ? Collocation::get().weights_to(s) : Lanes{};

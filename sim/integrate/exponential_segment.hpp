@@ -24,6 +24,10 @@ class ExponentialSegment final : public Segment {
     double coordinate(double t, std::size_t index, double* y) const override;
     void coordinates(double t, double* y) const override;
     const MotionBounds* bounds() const override;
+    // The same as `value` by the dense output, also at t1, of which `end` may be another value.
+    void value_inside(double t, double* y) const { evaluate(t, true, y); }
+    // The coordinates and their rates alone.
+    void motion_inside(double t, double* y) const;
     const TouchSamples* touch() const override { return touching ? &samples : nullptr; }
     // A step of this length; its numbers will change.
     void begin(double length) {
@@ -76,6 +80,7 @@ class ExponentialSegment final : public Segment {
     int last_point(double t, double s) const;
     void expand(int point) const;
     void evaluate(double t, bool vibration_work, double* y) const;
+    void oscillate(double t, double* y) const;
     void evolve(std::size_t group, double t, double s, Lanes& x, Lanes& rate) const;
     void evolve_all(double t, double s, double* y) const;
     double structural_loss(std::size_t mode, double s, const double* y) const;

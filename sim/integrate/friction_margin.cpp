@@ -4,10 +4,12 @@
 #include <cmath>
 
 #include "sim/base/numerics.hpp"
-#include "sim/integrate/constants.hpp"
 #include "sim/integrate/step_polynomial.hpp"
 
 namespace beamcam::sim {
+
+constexpr double kMarginRounding = 1e-9;  // of the largest margin of friction in a step
+constexpr int kPartsBetweenNodes = 4;     // in which a polynomial of degree seven has no more than one extremum
 
 FrictionMargin::FrictionMargin(const NodalStep& step, const ContactStep& contact) : h_(step.segment.h) {
     const FrictionLaw& friction = step.system.friction();

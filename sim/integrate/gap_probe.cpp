@@ -2,11 +2,15 @@
 
 #include <cmath>
 
-#include "sim/integrate/constants.hpp"
+#include "sim/integrate/modal_form.hpp"
 
 namespace beamcam::sim {
+
+constexpr int kMostCentres = 8;        // until the expansion contains the foot
+constexpr double kSettledFoot = 3e-3;  // of the length: corrections by less have converged
+
 GapProbe::GapProbe(System& system) : system_(system) {
-    if (!system.has_cam()) return;
+    if (!system.has_cam() || !ModalForm::exists(system)) return;
     expansion_ = std::make_unique<ContactExpansion>(system);
     hq_.resize(expansion_->scratch());
 }

@@ -1,6 +1,7 @@
 // The gap in flight at many instants: the shapes are expanded about the foot of the contact, so that an evaluation
 // costs as many operations as there are modes (the integral of v′², their square), and shapes are evaluated only when
-// the foot leaves the range of the expansion. For nearly straight beams; otherwise it calls System::contact.
+// the foot leaves the range of the expansion. For nearly straight beams of the models that the collocation integrates;
+// otherwise it calls System::contact.
 #pragma once
 
 #include <memory>

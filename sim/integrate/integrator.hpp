@@ -11,6 +11,9 @@
 
 namespace beamcam::sim {
 
+// The errors of BDF add up, so where it replaces another method it gets this share of the tolerance.
+inline constexpr double kShareOfBdf = 0.03;
+
 class System;
 
 // Bounds of magnitudes within a step that may span many periods of vibration.

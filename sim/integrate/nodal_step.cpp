@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "sim/base/assert.hpp"
-#include "sim/integrate/constants.hpp"
 
 namespace beamcam::sim {
 NodalStep::NodalStep(System& of, std::shared_ptr<const ModalForm> modal_form, double relative, double absolute,

@@ -5,10 +5,18 @@
 #include <utility>
 
 #include "sim/base/assert.hpp"
-#include "sim/integrate/constants.hpp"
 
 namespace beamcam::sim {
 namespace {
+
+constexpr double kSlowestOscillator = 1e-6;  // [rad/s] slower ones hardly have a period: no inverse of it
+// ζ from which the two decays are treated separately; below, they are too close to each other.
+constexpr double kTwoDecays = 1.02;
+constexpr double kMostDampingInLanes = 0.5;  // the largest ζ of oscillators whose responses share lanes
+constexpr double kSeriesRadians = 2;         // [rad], or decays, up to which responses come from their series
+// In sustained contact, vibration that turns by more radians in a step is projected, unless its ζ is larger; growth by
+// it begins at 14.                                                                                        (S52c)
+constexpr double kAliasedRadians = 7, kMostDampingOfProjected = 0.1;
 
 // Phases beyond lose digits in their reduction; there each response is computed by itself.
 constexpr double kMostRadians = 1e5;

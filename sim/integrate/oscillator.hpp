@@ -9,6 +9,15 @@
 
 namespace beamcam::sim {
 
+// Step lengths come from the ladder 2^(k/2) s, so that few tables serve a run.
+inline constexpr int kLowestLevel = -80, kHighestLevel = -4;
+inline constexpr int kFirstFlightLevel = -18;  // 2 ms
+inline constexpr int kFirstTouchLevel = -24;   // 0.24 ms
+inline constexpr double kRestLevel = 1.01;     // steps: a rest of the interval that is no longer is one step
+// A level is a factor √2 in length: below these errors, in units of the tolerance, the next step of flight is one level
+// longer, or two.
+inline constexpr double kLongerFlight = 0.5 / 16, kMuchLongerFlight = 1e-5;
+
 struct Oscillator {
     double omega = 0;  // ω [rad/s], >= 0
     double gamma = 0;  // γ [1/s], >= 0

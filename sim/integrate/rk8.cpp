@@ -10,12 +10,14 @@
 #include <string>
 
 #include "sim/base/assert.hpp"
-#include "sim/integrate/constants.hpp"
 #include "sim/integrate/integrator.hpp"
 #include "sim/integrate/rk8_tableau.hpp"
 
 namespace beamcam::sim {
 namespace {
+
+// Step-size factors of the published code of order 8: safety, and the least and most from one step to the next.
+constexpr double kRk8Safety = 0.9, kRk8Shrink = 1.0 / 3.0, kRk8Growth = 6.0;
 
 using namespace dop853;
 

@@ -5,6 +5,10 @@
 
 namespace beamcam::sim {
 
+constexpr double kLeastDecay = 1.0 / 30;        // of Legendre coefficients: the smoothest forcing assumed
+constexpr double kLeastQuadratureDecay = 1e-5;  // the same for the quadrature, the fourth power of a decay
+constexpr double kNegligibleChange = 1e-6;      // of the tolerance: the rounding of a motion that has hardly begun
+
 LegendreDecay legendre_decay(const Lanes& nodal, double rounding) {
     const auto& legendre = Collocation::get().legendre;
     const auto size = [&](std::size_t j) { return std::fabs(sum(legendre[j] * nodal)); };

@@ -2,9 +2,13 @@
 #pragma once
 
 #include "sim/integrate/collocation.hpp"
-#include "sim/integrate/constants.hpp"
 
 namespace beamcam::sim {
+
+// Steps in contact are kept to a share of the tolerance: impacts multiply errors, and at order sixteen it costs little.
+inline constexpr double kContactShare = 64;
+inline constexpr double kShareOfIteration = 0.02;  // of the tolerance, for the rest of the iteration
+inline constexpr double kStalled = 0.9;
 
 // The decay of the Legendre coefficients of nodal values: the larger of the last two, and its ratio to the larger of
 // the two before (at most 1).

@@ -20,11 +20,13 @@
 #include <type_traits>
 #include <vector>
 
-#include "sim/integrate/constants.hpp"
 #include "sim/integrate/integrator.hpp"
 
 namespace beamcam::sim {
 namespace {
+
+constexpr double kIgnoredWeight = 1e-30;  // in SUNDIALS, of components without error control
+constexpr double kFarTime = 1e3;          // [s] a target beyond any step, in the direction of time
 
 // The Taylor polynomial of CVODE's steps. `numbers`: the instant of expansion, and the coefficients from the constant
 // on, n numbers each.

@@ -3,8 +3,6 @@
 #include <cmath>
 #include <utility>
 
-#include "sim/integrate/constants.hpp"
-
 namespace beamcam::sim {
 
 VibrationWork::ProductIntegral VibrationWork::integral_of_product(const StepPolynomial& a, const StepPolynomial& b,

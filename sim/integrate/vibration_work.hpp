@@ -10,6 +10,9 @@
 
 namespace beamcam::sim {
 
+// The nodes do not resolve vibration that turns by more radians, or decays by more, in a step.
+inline constexpr double kResolvedRadians = 3;
+
 bool resolved(const Oscillator& oscillator, double h);  // by the nodes of a step of length h
 
 class VibrationWork {

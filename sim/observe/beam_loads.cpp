@@ -4,8 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "sim/observe/constants.hpp"
-
 namespace beamcam::sim {
 
 Vec2 point_acceleration(const Model& model, const double* acceleration, double x) {

@@ -4,10 +4,11 @@
 #include <cmath>
 
 #include "sim/base/numerics.hpp"
-#include "sim/observe/constants.hpp"
 
 namespace beamcam::sim {
 namespace {
+
+constexpr double kSignRounding = 1e-14;  // of the largest sample: values below it have no sign
 
 // The points of the channel above the level, in the order of time: its samples, and the turning points beyond the level
 // between samples on one side of it. Values below rounding of the samples are zero at the start of the motion: no

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "sim/observe/result.hpp"
 #include "sim/observe/step_samples.hpp"
 
 namespace beamcam::sim {

@@ -5,9 +5,10 @@
 #include <cmath>
 
 #include "sim/base/numerics.hpp"
-#include "sim/observe/constants.hpp"
 
 namespace beamcam::sim {
+
+constexpr double kRefinedRise = 1e-5;  // of that: a rise between samples, which moves the extremum's instant
 
 struct ExtremaFinder::Best {
     double t, value;

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "sim/observe/impacts.hpp"
 #include "sim/observe/step_samples.hpp"
 
 namespace beamcam::sim {

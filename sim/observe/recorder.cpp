@@ -28,32 +28,51 @@ double end_of(const Request& request) {
     return end;
 }
 
-Recorder::Recorder(const System& system, const Request& request, SharedSamples* shared)
+Recorder::Recorder(const System& system, const Request& request, std::function<RunStatistics()> statistics)
     : request_(request),
+      statistics_(std::move(statistics)),
       end_(end_of(request)),
       evaluator_(system),
-      samples_(request, evaluator_, result_, shared),
+      samples_(request, evaluator_, result_),
       impacts_(evaluator_, result_),
       extrema_(std::make_unique<ExtremaFinder>(system, request.extrema)),
       y_(static_cast<std::size_t>(system.size)) {
     if (request.bends && system.problem().beam.model != ModelKind::rigid)
         bends_ = std::make_unique<ExtremaFinder>(system, std::vector<Channel>{{ChannelKind::tip_deflection}});
-    if (request.impact_peaks) summary_.impact.emplace();
     result_.states.resize(request.states.size());
     result_.extrema.assign(request.extrema.size(), kNoValue);
 }
 
 Recorder::~Recorder() = default;
 
-void Recorder::begin(const Phase& phase, const std::vector<double>& y) {
+namespace {
+
+// The end of a run that falls on an instant without a segment.
+struct PointSegment final : Segment {
+    PointSegment(double t, const std::vector<double>& state) : y(state) { t0 = t1 = t; }
+    void value(double, double* out) const override { std::copy(y.begin(), y.end(), out); }
+    const std::vector<double>& y;
+};
+
+}  // namespace
+
+void Recorder::resume(double t, const std::vector<double>& y, const Phase& phase) {
     set_phase(phase);
-    evaluator_.set(0, y.data());
+    if (!start_total_) begin(y.data());
+    if (end_ > t && !has_enough()) return;
+    const PointSegment point(t, y);
+    record({&point, t, t, true});
+    finish(t, y.data());
+}
+
+void Recorder::begin(const double* y) {
+    evaluator_.set(0, y);
     start_total_ = evaluator_.energy_balance().total();
-    evaluator_.set_start_energy(start_total_);
+    evaluator_.set_start_energy(*start_total_);
     const Problem& problem = evaluator_.system().problem();
     const double lever = problem.hub.radius + 0.5 * problem.beam.length;
-    summary_.energy_scale = std::fabs(problem.beam.line_density() * problem.beam.length * problem.gravity * lever);
-    extrema_->set_start_energy(start_total_);
+    result_.energy_scale = std::fabs(problem.beam.line_density() * problem.beam.length * problem.gravity * lever);
+    extrema_->set_start_energy(*start_total_);
     note_balance();
 }
 
@@ -69,27 +88,27 @@ void Recorder::set_phase(const Phase& phase) {
     if (bends_) bends_->set_phase(phase);
 }
 
-// Each part starts its search of the contact afresh, so that none depends on what another evaluated: the last bits of a
-// foot point depend on where its iteration began.
-void Recorder::record(const SegmentInterval& s, const SegmentSummary* known) {
+void Recorder::step(const SegmentInterval& s) {
+    record(s);
+    if (!s.last) return;
+    s.segment->value(s.to, y_.data());
+    finish(s.to, y_.data());
+}
+
+void Recorder::record(const SegmentInterval& s) {
     const bool lasts = s.to > s.from;
     if (!lasts && !s.last) return;
     samples_.step(s);
     take_states(s);
     if (impacts_.open()) samples_.contact_step(s);
-    if (lasts) find_events(s, known);
-    if (known)
-        static_cast<RunPeaks&>(summary_) = *known;
-    else
-        record_balance(s);
-    if (Impact* impact = impacts_.open()) {
-        if (lasts) find_peaks(s, known);
-        const ImpactPeaks peaks = summary_.impact.value_or(ImpactPeaks{.penetration = kNan});
-        impact->force_peak = peaks.force, impact->t_peak = peaks.t_force;
-        impact->penetration_peak = peaks.penetration;
-    }
-    if (lasts) extrema_->step(s, result_.extrema);
-    if (lasts && bends_ && !result_.collisions.empty()) find_bend(s);
+    record_balance(s);
+    if (!lasts) return;
+    StepSamples& step = extrema_->samples();
+    if (request_.apexes) find_apexes(step, s, result_.apexes);
+    if (request_.zero_crossings) find_zero_crossings(step, s, result_.theta_zero);
+    if (Impact* impact = impacts_.open()) find_peaks(s, *impact);
+    extrema_->step(s, result_.extrema);
+    if (bends_ && !result_.collisions.empty()) find_bend(s);
 }
 
 void Recorder::take_states(const SegmentInterval& s) {
@@ -102,12 +121,11 @@ void Recorder::take_states(const SegmentInterval& s) {
     }
 }
 
-void Recorder::find_peaks(const SegmentInterval& s, const SegmentSummary* known) {
-    if (!summary_.impact) return;
-    if (known && known->impact)
-        summary_.impact = known->impact;
-    else
-        extrema_->contact_peaks(s, *summary_.impact);
+void Recorder::find_peaks(const SegmentInterval& s, Impact& impact) {
+    if (!request_.impact_peaks) return;
+    extrema_->contact_peaks(s, peaks_);
+    impact.force_peak = peaks_.force, impact.t_peak = peaks_.t_force;
+    impact.penetration_peak = peaks_.penetration;
 }
 
 void Recorder::find_bend(const SegmentInterval& s) {
@@ -116,25 +134,11 @@ void Recorder::find_bend(const SegmentInterval& s) {
         result_.collisions.back().t_bend = e.max >= -e.min ? e.t_max : e.t_min;
 }
 
-void Recorder::find_events(const SegmentInterval& s, const SegmentSummary* known) {
-    StepSamples& step = extrema_->samples();
-    const auto find = [&](bool wanted, auto SegmentSummary::*events, auto search, auto& all) {
-        auto& found = summary_.*events;
-        found.reset();
-        if (!wanted) return;
-        if (known) found = known->*events;
-        if (!found) search(step, s, found.emplace());
-        all.insert(all.end(), found->begin(), found->end());
-    };
-    find(request_.apexes, &SegmentSummary::apexes, find_apexes, result_.apexes);
-    find(request_.zero_crossings, &SegmentSummary::theta_zero, find_zero_crossings, result_.theta_zero);
-}
-
 void Recorder::note_balance() {
     const System::EnergyBalance& balance = evaluator_.energy_balance();
-    summary_.largest_elastic = std::max(summary_.largest_elastic, balance.energies.elastic);
-    summary_.energy_scale = std::max({summary_.energy_scale, balance.energies.kinetic, balance.energies.elastic});
-    summary_.energy_residual_max = std::max(summary_.energy_residual_max, std::fabs(balance.total() - start_total_));
+    largest_elastic_ = std::max(largest_elastic_, balance.energies.elastic);
+    result_.energy_scale = std::max({result_.energy_scale, balance.energies.kinetic, balance.energies.elastic});
+    result_.energy_residual_max = std::max(result_.energy_residual_max, std::fabs(balance.total() - *start_total_));
 }
 
 // Where a step ends.
@@ -147,16 +151,28 @@ void Recorder::record_balance(const SegmentInterval& s) {
     note_balance();
 }
 
+void Recorder::event(ContactEvent event, double t, const std::vector<double>& y, const ContactState& contact) {
+    switch (event) {
+        case ContactEvent::touch:
+            return touch(t, y.data(), contact);
+        case ContactEvent::release:
+            return impacts_.release(t, y.data(), contact);
+    }
+}
+
 void Recorder::touch(double t, const double* y, const ContactState& contact) {
     const std::size_t before = result_.collisions.size();
     impacts_.touch(t, y, contact);
     if (result_.collisions.size() > before) bend_ = {kNoValue};
     samples_.begin_contact();
-    if (const Impact& impact = *impacts_.open(); summary_.impact)
-        summary_.impact = {impact.force_peak, impact.t_peak, impact.penetration_peak};
+    Impact& impact = *impacts_.open();
+    peaks_ = {impact.force_peak, impact.t_peak, impact.penetration_peak};
+    if (request_.impact_peaks) return;
+    impact.force_peak.reset(), impact.t_peak.reset();
+    impact.penetration_peak = kNan;
 }
 
-void Recorder::finish(double t, const double* y, const RunStatistics& statistics) {
+void Recorder::finish(double t, const double* y) {
     finished_ = true;
     samples_.finish();
     impacts_.finish(t, y);
@@ -167,15 +183,14 @@ void Recorder::finish(double t, const double* y, const RunStatistics& statistics
     result_.end_time = t;
     evaluator_.set(t, y);
     result_.end_theta = evaluator_.value({ChannelKind::theta, 0});
-    result_.energy_scale = summary_.energy_scale;
-    result_.energy_residual_max = summary_.energy_residual_max;
+    const RunStatistics statistics = statistics_();
     result_.counters = statistics.counters;
     for (const auto& [by, steps] :
          {std::pair{statistics.method, statistics.counters.steps - statistics.fallbacks.steps},
           std::pair{statistics.fallbacks.method, statistics.fallbacks.steps}})
         if (steps > 0) result_.steps_by_method.emplace_back(by, steps);
-    result_.beyond_model = bends_beyond(problem, summary_.largest_elastic);
-    result_.warnings = warnings(problem, result_, statistics, summary_.largest_elastic);
+    result_.beyond_model = bends_beyond(problem, largest_elastic_);
+    result_.warnings = warnings(problem, result_, statistics, largest_elastic_);
     warn_of_missed_peaks(request_, result_);
     if (samples_.has_full_table())
         result_.warnings.push_back(fmt::format(

@@ -1,11 +1,14 @@
 // Records one request of a motion while it is integrated: samples, poses, impacts, crossings, extrema and the energy
-// balance. It evaluates accepted segments only, through its own System, so recording never changes a bit of the motion.
+// balance. The result does not depend on other requests, nor on how far the run goes beyond this one.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "sim/observe/impacts.hpp"
+#include "sim/observe/observer.hpp"
 #include "sim/observe/run_statistics.hpp"
 #include "sim/observe/samples.hpp"
 
@@ -13,38 +16,38 @@ namespace beamcam::sim {
 
 class ExtremaFinder;
 
-class Recorder {
+class Recorder final : public Observer {
   public:
-    // `shared`: with the recorders of other requests.
-    Recorder(const System& system, const Request& request, SharedSamples* shared);
+    // `statistics` returns the counts of the run so far.
+    Recorder(const System& system, const Request& request, std::function<RunStatistics()> statistics);
     Recorder(const Recorder&) = delete;  // its parts refer to each other
-    ~Recorder();
+    ~Recorder() override;
     Recorder& operator=(const Recorder&) = delete;
 
-    void begin(const Phase& phase, const std::vector<double>& y);
-    void set_phase(const Phase& phase);
-    // `known`: the summary of the interval, if another recorder computed it. The interval is not the last one then.
-    void record(const SegmentInterval& s, const SegmentSummary* known = nullptr);
-    // Of the interval recorded last.
-    const SegmentSummary& summary() const { return summary_; }
-    void touch(double t, const double* y, const ContactState& contact);
-    void release(double t, const double* y, const ContactState& contact) { impacts_.release(t, y, contact); }
-    void finish(double t, const double* y, const RunStatistics& statistics);
+    double end() const override { return end_; }
+    bool done() const override { return finished_; }
+    void resume(double t, const std::vector<double>& y, const Phase& phase) override;
+    void step(const SegmentInterval& s) override;
+    void event(ContactEvent event, double t, const std::vector<double>& y, const ContactState& contact) override;
+    // Nothing follows (t, y).
+    void finish(double t, const double* y);
 
-    double end() const { return end_; }  // last instant of the request [s]
-    bool finished() const { return finished_; }
-    bool has_enough() const;  // events, where the request limits their number
     Result& result() { return result_; }
 
   private:
+    void begin(const double* y);
+    void set_phase(const Phase& phase);
+    void record(const SegmentInterval& s);
+    bool has_enough() const;  // events, where the request limits their number
     void take_states(const SegmentInterval& s);
-    void find_peaks(const SegmentInterval& s, const SegmentSummary* known);
+    void find_peaks(const SegmentInterval& s, Impact& impact);
     void find_bend(const SegmentInterval& s);  // of the present collision
-    void find_events(const SegmentInterval& s, const SegmentSummary* known);
-    void note_balance();
     void record_balance(const SegmentInterval& s);
+    void note_balance();
+    void touch(double t, const double* y, const ContactState& contact);
 
     const Request& request_;
+    const std::function<RunStatistics()> statistics_;
     const double end_;
     Result result_;
     ChannelEvaluator evaluator_;
@@ -52,9 +55,10 @@ class Recorder {
     ImpactRecorder impacts_;
     std::unique_ptr<ExtremaFinder> extrema_, bends_;  // bends_: null unless requested
     std::vector<Extremum> bend_;                      // of the tip's deflection since the last collision began
-    SegmentSummary summary_;
+    ImpactPeaks peaks_;                               // of the present impact
     std::vector<double> y_;
-    double start_total_ = 0;
+    std::optional<double> start_total_;  // of the energies at the start [J]; absent until it begins
+    double largest_elastic_ = 0;         // bending energy [J]
     bool finished_ = false;
 };
 

@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "sim/base/vec2.hpp"
-#include "sim/observe/constants.hpp"
 
 namespace beamcam::sim {
+
+inline constexpr long kMostCurveRows = 400'000;  // 10 MB of three channels; more than a page resolves
+inline constexpr double kBesideMiddle = 0.31;    // of a piece: no vibration has a node here and in the middle
 
 // The distance of a plane curve from a piece, each direction by its range so far.
 class PlaneCurve {

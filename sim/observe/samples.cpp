@@ -8,12 +8,15 @@
 #include <string_view>
 #include <type_traits>
 
-#include "sim/observe/constants.hpp"
-#include "sim/problem/constants.hpp"
-
 namespace beamcam::sim {
 
 namespace {
+
+constexpr int kMostCurveHalvings = 8;  // of the piece between two rows
+constexpr int kMostRowHalvings = 16;   // of the piece between two rows of an adaptive table
+constexpr double kRowRounding = 1e-9;  // of a channel's natural size: differences that rows do not show
+// Poses are taken within the first steps of a contact: after them a collision is over, and a lasting contact is slow.
+constexpr int kContactPoseSteps = 4;
 
 // Differences of each channel that are rounding, from the mass and length of the beam and the time of its fall.
 // Infinite for channels that rows do not follow: the energy residual, and in a table of all channels those of single
@@ -55,12 +58,10 @@ std::pair<double, double> span_of(const TableRequest& table) {
 
 }  // namespace
 
-SampleRecorder::SampleRecorder(const Request& request, ChannelEvaluator& evaluator, Result& result,
-                               SharedSamples* shared)
+SampleRecorder::SampleRecorder(const Request& request, ChannelEvaluator& evaluator, Result& result)
     : request_(request),
       evaluator_(evaluator),
       result_(result),
-      shared_(shared),
       y_(static_cast<std::size_t>(evaluator.system().size)),
       contact_poses_(request.poses.size(), 0) {
     for (const TableRequest& table : request.tables) {
@@ -107,19 +108,14 @@ void SampleRecorder::evaluate_at(const SegmentInterval& s, double t) {
 
 const std::vector<double>& SampleRecorder::row(const SegmentInterval& s, double t,
                                                const std::vector<Channel>& channels) {
-    const auto evaluate = [&](std::vector<double>& values) {
-        values.clear();
-        if (std::ranges::all_of(channels, [&](Channel c) { return evaluator_.is_of_coordinates(c); })) {
-            s.segment->coordinates(std::max(t, s.from), y_.data());
-            for (const Channel channel : channels)
-                values.push_back(evaluator_.value_of_coordinates(channel, t, y_.data()));
-            return;
-        }
-        evaluate_at(s, t);
-        for (const Channel channel : channels) values.push_back(evaluator_.value(channel));
-    };
-    if (shared_) return shared_->rows.get(t, channels, evaluate);
-    evaluate(row_);
+    row_.clear();
+    if (std::ranges::all_of(channels, [&](Channel c) { return evaluator_.is_of_coordinates(c); })) {
+        s.segment->coordinates(std::max(t, s.from), y_.data());
+        for (const Channel channel : channels) row_.push_back(evaluator_.value_of_coordinates(channel, t, y_.data()));
+        return row_;
+    }
+    evaluate_at(s, t);
+    for (const Channel channel : channels) row_.push_back(evaluator_.value(channel));
     return row_;
 }
 
@@ -258,18 +254,9 @@ bool SampleRecorder::has_full_table() const {
 }
 
 void SampleRecorder::put_pose(const SegmentInterval& s, double t, std::size_t i, std::size_t row) {
-    const PoseRequest& poses = request_.poses[i];
-    const auto evaluate = [&](Pose& pose) {
-        evaluate_at(s, t);
-        pose = evaluator_.pose(poses.stations);
-    };
-    Pose pose;
-    if (shared_)
-        pose = shared_->poses.get(t, poses.stations, evaluate);
-    else
-        evaluate(pose);
+    evaluate_at(s, t);
     result_.poses[i].resize(std::max(result_.poses[i].size(), row + 1));
-    result_.poses[i][row] = std::move(pose);
+    result_.poses[i][row] = evaluator_.pose(request_.poses[i].stations);
 }
 
 // In the middle of the whole step, which is the same wherever the run ends.

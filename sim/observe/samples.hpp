@@ -4,19 +4,17 @@
 #include <vector>
 
 #include "sim/observe/channel_evaluator.hpp"
+#include "sim/observe/observer.hpp"
 #include "sim/observe/refine.hpp"
 #include "sim/observe/request.hpp"
 #include "sim/observe/result.hpp"
-#include "sim/observe/segment_interval.hpp"
-#include "sim/observe/shared_samples.hpp"
 
 namespace beamcam::sim {
 
 class SampleRecorder {
   public:
-    // All of them must outlive it. The evaluator's foot search starts afresh at every sample, so that samples do not
-    // depend on each other. `shared`: with the recorders of other requests; null when there are none.
-    SampleRecorder(const Request& request, ChannelEvaluator& evaluator, Result& result, SharedSamples* shared);
+    // All of them must outlive it.
+    SampleRecorder(const Request& request, ChannelEvaluator& evaluator, Result& result);
 
     void step(const SegmentInterval& s);
     void begin_contact() { contact_steps_ = 0; }
@@ -49,7 +47,6 @@ class SampleRecorder {
     const Request& request_;
     ChannelEvaluator& evaluator_;
     Result& result_;
-    SharedSamples* shared_;
     std::vector<double> y_, row_;
     std::vector<Cursor> table_cursors_, pose_cursors_, point_cursors_;
     struct RefinedRows {  // between the times of a table with a curve, or of an adaptive one

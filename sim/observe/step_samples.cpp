@@ -8,10 +8,19 @@
 #include "sim/integrate/collocation.hpp"
 #include "sim/integrate/modal_form.hpp"
 #include "sim/integrate/step_errors.hpp"
-#include "sim/observe/constants.hpp"
 
 namespace beamcam::sim {
 namespace {
+
+constexpr double kNegligibleEnergy = 1e-10;  // of the vibration: 10⁻⁵ of its rates
+constexpr double kSamplesPerRadian = 1.3;    // of a vibration: eight in a period
+constexpr double kMostSamples = 1e5;         // between two nodes of a step
+// The larger of the last two Legendre coefficients of the nodal values, times this, is what a channel may do between
+// the nodes: the phases of several vibrations make them as small as a quarter of the sum of their amplitudes.
+constexpr double kStrayByDecay = 6;
+// A step in which a vibration decays by more than the first, e⁻⁸ = 3·10⁻⁴, is sampled in parts; each is eight times as
+// long as the one before.
+constexpr double kFadedDecays = 8, kPartRatio = 0.125;
 
 // The samples of a solved contact that are this channel; null for other channels.
 const double* touch_channel(const TouchSamples& touch, ChannelKind kind) {

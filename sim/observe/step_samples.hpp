@@ -11,7 +11,7 @@
 #include "sim/base/lanes.hpp"
 #include "sim/integrate/gap_probe.hpp"
 #include "sim/observe/channel_evaluator.hpp"
-#include "sim/observe/segment_interval.hpp"
+#include "sim/observe/observer.hpp"
 
 namespace beamcam::sim {
 

@@ -6,10 +6,16 @@
 #include <cmath>
 
 #include "sim/base/counted.hpp"
-#include "sim/observe/constants.hpp"
+#include "sim/contact/chatter.hpp"
 
 namespace beamcam::sim {
 namespace {
+
+constexpr double kMissedPeak = 0.95;          // of the largest force: rows that reach less miss it
+constexpr double kLedgerTolerances = 10;      // times rtol: the accuracy of `auto`; a larger error is a warning
+constexpr double kEnergyRounding = 1e-12;     // of the energy scale
+constexpr double kReportedGap = 1e-10;        // of the length, left at an event: 1000 times rounding
+constexpr double kForeshorteningSlope = 0.3;  // [rad] beyond which the modal models' u ≈ −½∫v′² misses 2 %
 
 void warn_of_chatter(const Problem& problem, const RunStatistics& statistics, std::vector<std::string>& out) {
     if (statistics.chatters == 0) return;

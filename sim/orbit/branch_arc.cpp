@@ -5,10 +5,15 @@
 
 #include "sim/base/linear_algebra.hpp"
 #include "sim/base/ode.hpp"
-#include "sim/orbit/constants.hpp"
 
 namespace beamcam::sim {
 namespace {
+
+constexpr int kMaxArcNewton = 8;         // iterations; if a prediction needs more, the step is shortened
+constexpr double kArcAcceptable = 1e-9;  // residual over the orbit's size if rounding allows no further decrease
+// The finite difference for ∂P/∂p, as a share of the range, affects the tangent and the corrector's convergence.
+constexpr double kArcDifference = 1e-6;
+constexpr double kNearFold = 0.1;  // of the unit tangent: its part along the parameter is smaller near a fold
 
 bool same_events(const FlowMap& a, const FlowMap& b) {
     return a.touches.size() == b.touches.size() && a.holds == b.holds && a.lifts == b.lifts;

@@ -7,9 +7,10 @@
 #include <numbers>
 
 #include "sim/base/counted.hpp"
-#include "sim/orbit/constants.hpp"
 
 namespace beamcam::sim {
+
+constexpr double kNearSection = 0.1;  // of its flight: an impact so close to the section moves it
 
 bool same_pattern(const PeriodicOrbit& a, const PeriodicOrbit& b) {
     return (a.chatters() || a.impacts.size() == b.impacts.size()) && a.holds == b.holds && a.lifts == b.lifts &&

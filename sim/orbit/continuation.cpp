@@ -12,12 +12,30 @@
 #include "sim/base/linear_algebra.hpp"
 #include "sim/base/numerics.hpp"
 #include "sim/orbit/branch_arc.hpp"
-#include "sim/orbit/constants.hpp"
 #include "sim/orbit/contact_pattern.hpp"
-#include "sim/run/constants.hpp"
 
 namespace beamcam::sim {
 namespace {
+
+constexpr double kSmallestArc = 1e-9;  // of the range: smallest step, located end of a branch; of μ: no imaginary part
+// What is so close is one: the multiplier 1 at a fold; impact speeds half a period apart, relatively; of the range, a
+// period doubling at which the branch of doubled period is bracketed.
+constexpr double kClose = 1e-3;
+constexpr double kFirstArc = 0.1;                     // of the longest step
+constexpr double kArcShrink = 0.3, kArcGrowth = 1.4;  // step factors after failure and success
+constexpr double kLeastCosine = 0.98;                 // between the tangents of neighbouring points
+constexpr double kOnCircle = 1e-7;  // of |μ|² − 1: rounding, as of pairs that never leave the circle
+constexpr double kAtTip = 1e-6;     // of the beam's length: a branch that ends with a foot this close ends at a corner
+// Relative uncertainty of the parameter at which an interval of sustained contact vanishes: the impacts before it are
+// too slow to be separated.
+constexpr double kRestUncertainty = 3e-5;
+// Largest multiplier: times the rounding of the section map it is the residual that is still acceptable.
+constexpr double kMostUnstable = 1e6;
+constexpr double kMovedSection = 0.01;  // [rad] smaller changes of the section are ignored
+// The first step onto the doubled branch, as a share of the orbit's size over its turns, is halved so often until there
+// is a point on it.
+constexpr double kDoubledShift = 0.02;
+constexpr int kDoubledHalvings = 13;
 
 Eigen::MatrixXd plus_identity(const ArcPoint& p, double sign) {
     return p.derivative + sign * Eigen::MatrixXd::Identity(p.derivative.rows(), p.derivative.cols());
@@ -42,7 +60,7 @@ CircleTest circle_of(const ArcPoint& p) {
             product *= factor;
             if (!(std::abs(factor) < test.nearest)) continue;
             test.nearest = std::abs(factor);
-            test.complex = std::fabs(m[i].imag()) > kRealMultiplier && std::abs(m[i] - std::conj(m[j])) < kOnCircle;
+            test.complex = std::fabs(m[i].imag()) > kSmallestArc && std::abs(m[i] - std::conj(m[j])) < kOnCircle;
         }
     test.product = product.real();
     return test;
@@ -56,7 +74,7 @@ bool crosses_circle(const ArcPoint& a, const ArcPoint& b) {
 
 // Otherwise the tangent turned for another reason.
 bool has_unit_multiplier(const PeriodicOrbit& orbit) {
-    return std::ranges::any_of(orbit.multipliers, [](auto mu) { return std::abs(mu - 1.0) < kUnitMultiplier; });
+    return std::ranges::any_of(orbit.multipliers, [](auto mu) { return std::abs(mu - 1.0) < kClose; });
 }
 bool beyond_range(const Eigen::VectorXd& z) { return z[z.size() - 1] < 0 || z[z.size() - 1] > 1; }
 // The point is an end of the range, and its tangent points outwards.
@@ -175,7 +193,7 @@ std::optional<ArcPoint> Continuation::doubling_of_half(const ArcPoint& near) con
         z[n] = share;
         return half.correct(z, Eigen::VectorXd::Unit(n + 1, n));
     };
-    const double low = near.z[n] - kNearDoubling, high = near.z[n] + kNearDoubling;
+    const double low = near.z[n] - kClose, high = near.z[n] + kClose;
     return sign_change(point, doubling_test, {low, value_at(point(low), doubling_test)},
                        {high, value_at(point(high), doubling_test)});
 }
@@ -185,7 +203,7 @@ std::optional<ArcPoint> Continuation::doubling_of_half(const ArcPoint& near) con
 bool Continuation::locate_turn(const ArcPoint& a, const ArcPoint& b, Branch& branch) const {
     const auto turn = root(a, b, fold_test);
     if (!turn) return false;
-    const bool twice = !turn->orbit.impacts.empty() && repeats(turn->orbit, 2, kRepeatedImpact);
+    const bool twice = !turn->orbit.impacts.empty() && repeats(turn->orbit, 2, kClose);
     const auto origin = twice ? doubling_of_half(*turn) : std::nullopt;
     if (origin) {
         add(OrbitChange::period_doubling, *origin, branch);

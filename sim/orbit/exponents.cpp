@@ -7,12 +7,27 @@
 #include <limits>
 #include <numeric>
 
-#include "sim/orbit/constants.hpp"
 #include "sim/orbit/flow_map.hpp"
 #include "sim/run/run.hpp"
 
 namespace beamcam::sim {
 namespace {
+
+// Standard errors by which an exponent differs from zero: three times its error.
+constexpr double kSureErrors = 3;
+constexpr double kMaxDecay = 5;     // logarithm of the decay of a damped mode between two orthonormalizations
+constexpr double kHalvesApart = 4;  // standard errors between the halves of an average
+// Blocks that do not match the period of a periodic motion may differ by this share of the whole.
+constexpr double kBlockRounding = 1e-3;
+constexpr double kCompliant = 0.02;  // [s] between orthonormalizations with compliant contact
+constexpr double kNoRank = 1e-13;    // of a unit tangent: a smaller remainder is rounding
+constexpr double kGrazing = 0.01;    // of the root mean square approach speed: slower impacts are near grazing
+// Tolerance of tangents over rtol: their errors enter an exponent once and are not amplified.
+constexpr double kTangentErrors = 100;
+constexpr std::size_t kHistory = 400;  // approximate number of points of the convergence history
+// Chaos requires that the later half of a motion multiplies differences by more than e^kLateGrowth. Linear growth does
+// not.                                                                                                          (S74)
+constexpr double kLateGrowth = 3;
 
 // The standard error of the mean of several blocks.
 double standard_error(const Eigen::ArrayXd& blocks, double mean) {
@@ -64,22 +79,22 @@ class Stretching {
     }
     double first_pause() const { return instant(1); }
 
-    double at(double t, TangentIntegrator& integrator) {
-        Eigen::MatrixXd v = integrator.tangents(true);
-        const Eigen::VectorXd left = orthonormalize(v, integrator.holds() > 0 ? kNoRank : 0);
+    double at(double t, Tangents& tangents) {
+        Eigen::MatrixXd v = tangents.tangents(true);
+        const Eigen::VectorXd left = orthonormalize(v, tangents.holds() > 0 ? kNoRank : 0);
         if (done_ >= settling_) sum_.array() += left.array().log();
         if (t >= instant(done_ + 1)) {
             advance();
-            if (done_ == settling_) replace_annihilated(v, left, integrator);
+            if (done_ == settling_) replace_annihilated(v, left, tangents);
         }
-        integrator.set_canonical(v);
+        tangents.set_canonical(v);
         return instant(done_ + 1);
     }
 
     // The last instant may equal the end up to rounding.
-    void finish(double end, TangentIntegrator& integrator) {
+    void finish(double end, Tangents& tangents) {
         if (done_ == settling_ + per_block_ * block_.cols()) return;
-        at(end, integrator);
+        at(end, tangents);
         if (done_ < settling_ + per_block_ * block_.cols()) advance();
     }
 
@@ -110,7 +125,7 @@ class Stretching {
         if (half < 2 || !std::isfinite(sum_[i])) return true;
         const Eigen::ArrayXd first = block_.row(i).head(half), second = block_.row(i).tail(half);
         const double error = std::hypot(standard_error(first, first.mean()), standard_error(second, second.mean()));
-        return std::fabs(first.mean() - second.mean()) <= kUnsettled * error + kUnsettledRounding * std::fabs(sum_[i]);
+        return std::fabs(first.mean() - second.mean()) <= kHalvesApart * error + kBlockRounding * std::fabs(sum_[i]);
     }
     void advance() {
         ++done_;
@@ -126,14 +141,14 @@ class Stretching {
     }
 
     // Replaces tangents that sustained contact annihilated during the transient.
-    void replace_annihilated(Eigen::MatrixXd& v, const Eigen::VectorXd& left, TangentIntegrator& integrator) const {
+    void replace_annihilated(Eigen::MatrixXd& v, const Eigen::VectorXd& left, Tangents& tangents) const {
         if ((left.array() > 0).all()) return;
         for (Eigen::Index i = 0; i < v.cols(); ++i)
             if (left[i] == 0) v.col(i) = first_.col(i);
         orthonormalize(v);
-        integrator.set_canonical(v);
-        integrator.keep_on_cam();
-        v = integrator.tangents(true);
+        tangents.set_canonical(v);
+        tangents.keep_on_cam();
+        v = tangents.tangents(true);
         orthonormalize(v, kNoRank);
     }
 
@@ -206,34 +221,30 @@ const char* Exponents::against_chaos() const {
     return nullptr;
 }
 
+Chaos Exponents::chaos() const {
+    if (against_chaos()) return Chaos::not_shown;
+    return lambda.front() > kSureErrors * error.front() + doubt ? Chaos::shown : Chaos::doubtful;
+}
+
 Exponents lyapunov_exponents(const Problem& problem, const ExponentsRequest& request, const Progress& progress) {
     require_tangents(problem);
     if (!(request.transient >= 0) || !(request.duration > 0) || request.blocks < 2 || request.count < 0)
         throw std::invalid_argument("exponents need transient >= 0, duration > 0, blocks >= 2 and count >= 0");
-    Request span;
-    span.end_time = request.transient + request.duration;
-    TangentIntegrator* tangents = nullptr;
-    std::optional<Stretching> stretching;
-    RunOptions options{.start = request.start ? &*request.start : nullptr};
-    options.around = [&](System& system, std::unique_ptr<Integrator> motion) {
-        const Eigen::MatrixXd v = all_tangents(problem, system.coordinates(), request.count);
-        auto made = std::make_unique<TangentIntegrator>(system, std::move(motion), kTangentErrors * problem.solver.rtol,
-                                                        v, progress);
-        stretching.emplace(made->tangents(), request.blocks, request.transient, request.duration,
-                           longest_interval(problem));
-        tangents = made.get();
-        made->pause_at(stretching->first_pause(), [&](double t) { return stretching->at(t, *tangents); });
-        return made;
-    };
+    const double end = request.transient + request.duration;
+    Run run(problem, progress, {.end = end, .start = request.start ? &*request.start : nullptr});
+    Tangents tangents(run.system(), end, kTangentErrors * problem.solver.rtol,
+                      all_tangents(problem, run.system().coordinates(), request.count), progress);
+    Stretching stretching(tangents.tangents(), request.blocks, request.transient, request.duration,
+                          longest_interval(problem));
+    tangents.pause_at(stretching.first_pause(), [&](double t) { return stretching.at(t, tangents); });
+    run.add(tangents);
+    run.integrate();
+    stretching.finish(end, tangents);
     Exponents e;
     e.transient = request.transient;
     e.duration = request.duration;
-    Run run(problem, {&span, 1}, progress, options);
-    run.integrate();
-    tangents->finish(span.end_time);
-    stretching->finish(span.end_time, *tangents);
-    stretching->results(e);
-    judge_impacts(tangents->touches(), e);
+    stretching.results(e);
+    judge_impacts(tangents.touches(), e);
     if (!e.settled)
         e.warnings.push_back(
             "the two halves of the average differ by more than their errors: the motion had not settled; use a longer "

@@ -1,6 +1,6 @@
 // Lyapunov exponents of a motion: average exponential rates at which neighbouring motions diverge. MODEL.md (S74).
 //
-// Tangents are integrated along the motion through every impact (tangent_integrator.hpp) and orthonormalized at equal
+// Tangents are integrated along the motion through every impact (tangents.hpp) and orthonormalized at equal
 // intervals (Benettin et al. 1980). The mean logarithmic growth of their lengths gives the exponents.
 #pragma once
 
@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "sim/dynamics/initial.hpp"
-#include "sim/orbit/constants.hpp"
 #include "sim/problem/problem.hpp"
 #include "sim/run/simulate.hpp"
 
@@ -48,10 +47,7 @@ struct Exponents {
     // unstable equilibrium or of a growing vibration.
     const char* against_chaos() const;
     // Shown: the largest exponent exceeds three times its error plus the doubt.
-    Chaos chaos() const {
-        if (against_chaos()) return Chaos::not_shown;
-        return lambda.front() > kSureErrors * error.front() + doubt ? Chaos::shown : Chaos::doubtful;
-    }
+    Chaos chaos() const;
     bool chaotic() const { return chaos() == Chaos::shown; }
 };
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sim/dynamics/initial.hpp"
-#include "sim/orbit/tangent_integrator.hpp"
+#include "sim/orbit/tangents.hpp"
 #include "sim/run/simulate.hpp"
 
 namespace beamcam::sim {
@@ -18,7 +18,7 @@ struct FlowMap {
     // before any sustained contact, and is well conditioned where the derivative is not.
     std::vector<Eigen::MatrixXd> factors;
     double inertia_share = 1;  // at the end (S73)
-    Eigen::VectorXd units;     // of ξ and ξ̇ (TangentIntegrator::units)
+    Eigen::VectorXd units;     // of ξ and ξ̇ (Tangents::units)
     std::vector<TangentTouch> touches;
     long holds = 0, lifts = 0;  // impacts followed by sustained contact; ends of sustained contact
 };

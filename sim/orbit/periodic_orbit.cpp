@@ -6,12 +6,21 @@
 
 #include "sim/base/linear_algebra.hpp"
 #include "sim/base/numerics.hpp"
-#include "sim/orbit/constants.hpp"
 #include "sim/orbit/exponents.hpp"
 #include "sim/orbit/section_map.hpp"
 
 namespace beamcam::sim {
 namespace {
+
+constexpr int kMaxOrbitNewton = 16;  // iterations
+// Residual over the orbit's size: converged; acceptable if rounding allows no further decrease; hopeless.
+constexpr double kOrbitConverged = 1e-11, kOrbitAcceptable = 1e-8, kOrbitLost = 1e3;
+constexpr double kLongestStep = 0.5;  // of the size: largest Newton step
+constexpr double kReturn = 0.2;       // of the size: distance after some turns at which Newton's method is tried
+constexpr int kThrows = 24;           // cam angles of throws; as many between them if no orbit is found
+constexpr double kRise = 0.4;         // of the period: the thrown beam is in flight at this time
+constexpr double kAboveCam = 1e-6;    // [rad] so that the throw does not start with a touch
+constexpr double kSameOrbit = 1e-6;   // relative difference of impact speeds: closer orbits are one
 
 // The cam angle some time later, in [−π, π].
 double section_after(const Problem& problem, double section, double t) {

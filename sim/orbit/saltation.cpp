@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/contact/chatter.hpp"
 #include "sim/dynamics/failure.hpp"
-#include "sim/orbit/constants.hpp"
-#include "sim/run/constants.hpp"
+#include "sim/orbit/tangent_step.hpp"
 
 namespace beamcam::sim {
 namespace {
+
+constexpr double kSameSpeed = 1e-9;  // relative difference in speed by rounding of the gap at a touch
 
 constexpr int kFlow = kDirections - 1;  // this direction of the jets carries the time derivative of the motion itself
 

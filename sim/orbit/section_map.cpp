@@ -4,10 +4,12 @@
 #include <cmath>
 
 #include "sim/base/linear_algebra.hpp"
-#include "sim/orbit/constants.hpp"
 #include "sim/orbit/multipliers.hpp"
 
 namespace beamcam::sim {
+
+constexpr double kTightRtol = 1e-12, kTightAtol = 1e-14;  // the limits set by rounding
+constexpr int kMaxMapSteps = 3'000'000;                   // integration steps of one section map: minutes
 
 Problem at_section(Problem problem, double section) {
     problem.cam->phase = section;

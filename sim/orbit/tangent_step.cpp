@@ -4,13 +4,15 @@
 #include <cmath>
 #include <utility>
 
-#include "sim/integrate/constants.hpp"
 #include "sim/integrate/nodal_step.hpp"
-#include "sim/orbit/constants.hpp"
-#include "sim/run/constants.hpp"
 
 namespace beamcam::sim {
 namespace {
+
+constexpr double kTangentRounding = 1e-14;  // smallest tolerance of a step: rounding
+// Least order of convergence of a step. Step lengths of neighbouring levels differ by √2.
+constexpr int kTangentOrder = 8;
+constexpr double kSameLength = 1e-13;  // of a step: rounding of the time
 
 // The hub as an oscillator without stiffness.
 StepTable::Row hub_row(double h) {

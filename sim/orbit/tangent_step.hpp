@@ -14,6 +14,8 @@
 
 namespace beamcam::sim {
 
+inline constexpr int kTangentMemories = 2;  // additional rows: z and δ̇₋
+
 class TangentStep {
   public:
     // `probe` evaluates the contact along the motion. It, `jets` and `units` (of the rows of tangents) must outlive

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/problem/constants.hpp"
-
 namespace beamcam::sim {
 namespace {
 

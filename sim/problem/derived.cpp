@@ -4,10 +4,15 @@
 #include <numbers>
 
 #include "sim/base/assert.hpp"
-#include "sim/problem/constants.hpp"
 #include "sim/problem/problem.hpp"
 
 namespace beamcam::sim {
+
+constexpr double kPaperDepth = 0.0368;    // [m] depth of the beam with the default section
+constexpr double kCollisionGap = 0.02;    // [s] "auto" for a beam of 1 m on Earth
+constexpr double kPalmgrenFactor = 1.36;  // δ = 1.36 [(η₁ + η₂)F]^0.9/b^0.8, η = (1 − ν²)/E
+// ω₁√(ρAL⁴/(EI)) of a clamped beam, the square of its first eigenvalue.
+constexpr double kFirstClampedFrequency = 3.5160152685;
 
 bool is_prescribed(const Drive& drive) {
     return std::holds_alternative<ConstantSpeed>(drive) || std::holds_alternative<SpinUp>(drive) ||

@@ -11,7 +11,6 @@
 #include <variant>
 #include <vector>
 
-#include "sim/problem/constants.hpp"
 #include "sim/problem/dimension.hpp"
 #include "sim/problem/problem.hpp"
 

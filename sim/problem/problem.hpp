@@ -12,6 +12,12 @@
 
 namespace beamcam::sim {
 
+inline constexpr double kEarthGravity = 9.81;      // [m/s²] in place of a gravity of zero
+inline constexpr double kPointExponent = 1.5;      // of spheres
+inline constexpr double kLineExponent = 10.0 / 9;  // of Palmgren's δ ~ F^0.9 (1959)
+// The largest number in a scene, in SI units: products of a few such numbers do not overflow.
+inline constexpr double kLargestNumber = 1e30;
+
 // ---- hub and its drive -----------------------------------------------------------------------
 
 struct FreeDrive {};

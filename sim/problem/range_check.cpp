@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/problem/constants.hpp"
 #include "sim/problem/keys.hpp"
 
 namespace beamcam::sim {

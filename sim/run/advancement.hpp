@@ -7,7 +7,14 @@
 #include <limits>
 #include <optional>
 
+#include "sim/base/numerics.hpp"
+
 namespace beamcam::sim {
+
+// A gap and its rate at one instant; lengths or angles.
+struct GapAt {
+    double value, rate;
+};
 
 // Bounds of a gap's second derivative, −most <= g̈ <= least. Gaps g >= 0 and their rates v may be lengths or angles.
 struct Advancement {
@@ -26,5 +33,23 @@ struct Advancement {
         return 2 * g / (std::sqrt(square) - v);
     }
 };
+
+// The zero of a gap that falls from t on, where it is `at`, and vanishes before `latest`: Newton's method with
+// bisection, up to `rounding`. Nothing if it is still open at `end`, beyond which gap(t) is not defined.
+template <class F>
+std::optional<double> falling_zero(F&& gap, double t, GapAt at, double latest, double end, double rounding) {
+    double low = t, high = latest;
+    for (int i = 0; i < kMostIterations; ++i) {
+        double next = t - at.value / at.rate;
+        if (!(next > low && next < high)) next = 0.5 * (low + high);
+        next = std::min(next, end);
+        at = gap(next);
+        if (next == end && at.value > 0) return {};
+        if (next == t || std::fabs(at.value) <= rounding) return next;
+        (at.value > 0 ? low : high) = next;
+        t = next;
+    }
+    return t;
+}
 
 }  // namespace beamcam::sim

@@ -5,12 +5,18 @@
 #include <cmath>
 
 #include "sim/cam/motion_law.hpp"
-#include "sim/contact/constants.hpp"
+#include "sim/contact/chatter.hpp"
 #include "sim/dynamics/failure.hpp"
 #include "sim/integrate/step_errors.hpp"
 
 namespace beamcam::sim {
 namespace {
+
+constexpr double kForceDifference = 1e-4;  // of the step: finite difference for Ṅ, where the force is smooth
+constexpr double kGuardDifference = 1e-2;  // of the step: finite difference for the rate of a guard
+// Less is rounding: a minimum over a guard's largest value, a tensile force over weight and largest force, a distance
+// of events over the subinterval.
+constexpr double kGuardRounding = 1e-9;
 
 constexpr double kPassedKink = 1e-9;  // [rad]: the rounding of an event's place on the cam, and its uncertainty
 
@@ -66,7 +72,7 @@ Event ContactGuards::first_lift(const Segment& segment) {
     // A tensile force below this limit is rounding.
     const double mass = probe_.system.model().mass(), largest = *std::max_element(f.begin(), f.begin() + count + 1);
     const double weight = std::fabs(probe_.system.problem().gravity) * mass;
-    const double limit = -kVanishingForce * (weight + largest) - kRestAcceleration * mass;
+    const double limit = -kGuardRounding * (weight + largest) - kRestAcceleration * mass;
     for (int i = 0; i <= count; ++i) f[static_cast<std::size_t>(i)] -= limit;
     const auto lifted = [&](double t) { return force(t) - limit; };
     if (f[0] < 0) return {EventKind::lift, segment.t0};
@@ -194,7 +200,7 @@ std::optional<double> ContactGuards::clamp_event(const Segment& segment, const G
     const bool shows = known && std::fabs(b.clamp) > kZeroFactor && (a.clamp > 0) != (b.clamp > 0);
     if (shows) {
         const double seen = find_root([&](double t) { return evaluate(segment, t).clamp; }, t0, t1, a.clamp, b.clamp);
-        if (!at || !(*at < seen - kSameInstant * (t1 - t0))) at = seen;
+        if (!at || !(*at < seen - kGuardRounding * (t1 - t0))) at = seen;
     }
     return at;
 }

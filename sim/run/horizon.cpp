@@ -8,10 +8,15 @@
 
 #include "sim/dynamics/system.hpp"
 #include "sim/integrate/integrator.hpp"
-#include "sim/run/constants.hpp"
 
 namespace beamcam::sim {
 namespace {
+
+constexpr double kComparedRate = 1000;       // [Hz] sampling rate of the comparison
+constexpr double kBriefAgreement = 0.1;      // [s] a shorter agreement of two motions is a crossing
+constexpr double kTightestRtol = 1e-13;      // below it rounding errors dominate
+constexpr double kMaxComparedSteps = 500e3;  // of an explicit method: some seconds
+constexpr double kExplicitRadians = 2;       // of the fastest vibration in one step of such a method
 
 Problem at_tolerance(const Problem& problem) {
     Problem out = problem;

@@ -9,6 +9,9 @@
 
 namespace beamcam::sim {
 
+inline constexpr double kReproducible = 1e-6;      // [rad], or relative to angles above 1 rad
+inline constexpr double kTighterTolerance = 1e-2;  // of the tolerance: that of the comparison
+
 // Requests the compared angle (channels.hpp) at 1 kHz up to `end` [s], and at `end`.
 Request horizon_request(const Problem& problem, double end);
 

@@ -8,11 +8,26 @@
 #include <utility>
 
 #include "sim/base/assert.hpp"
-#include "sim/integrate/constants.hpp"
 #include "sim/integrate/integrator.hpp"
 
 namespace beamcam::sim {
 namespace {
+
+// The share of the tolerance for the local errors of `auto`: the sum over many impacts stays within ten times rtol.
+constexpr double kLocalShare = 1.0 / 3;
+constexpr double kLongStep = 1e3;  // [rad] of the fastest vibration: after such a step `progress` is called
+// Attempted steps at the first projection: chatter may take some thousands.
+constexpr long kFirstProjection = 20000;
+// A run stops early if the projected number of steps exceeds kHopeless × the budget. The projection uses the later half
+// of the steps so far. If that half is shorter than kSureProjection, which a brief phase can be, the limit grows with
+// the square of the ratio.
+constexpr double kSureProjection = 30000, kHopeless = 100;
+// The largest number that a scene may have [length, or rad]. How fast a linear model diverges above its critical
+// speed is a question that runs answer, so that a deflection that no beam has does not end them.
+constexpr double kUnboundedDeflection = 1e30;
+constexpr double kPredictedShift = 1e-3;    // of the step: largest correction of an event's time
+constexpr double kInstantRounding = 1e-14;  // of the time: closer instants are one
+constexpr int kMaxIdleEvents = 50;          // at one instant: then the run stops
 
 std::unique_ptr<Integrator> make_integrator(const Solver& solver, Method method, System& dynamics) {
     double share = solver.method == Method::automatic ? kLocalShare : 1;
@@ -32,26 +47,27 @@ std::unique_ptr<Integrator> make_integrator(const Solver& solver, Method method,
 
 }  // namespace
 
-Run::Run(const Problem& problem, std::span<const Request> requests, const Progress& progress, const RunOptions& options)
+Run::Run(const Problem& problem, const Progress& progress, const RunOptions& options)
     : problem_(problem),
       progress_(progress),
       start_(options.start),
       dynamics_(problem),
       probe_(dynamics_),
-      output_(dynamics_, requests, options.observer, [this] { return statistics(); }),
       method_(used_method(problem.solver.method, dynamics_)),
-      integrator_(options.around ? options.around(dynamics_, make_integrator(problem.solver, method_, dynamics_))
-                                 : make_integrator(problem.solver, method_, dynamics_)),
+      integrator_(make_integrator(problem.solver, method_, dynamics_)),
       touch_search_(probe_, state_, [this](double t) { report(t); }),
       contact_guards_(probe_, state_),
-      transitions_(dynamics_, probe_.system, *integrator_, state_, output_),
+      transitions_(dynamics_, probe_.system, *integrator_, state_),
       kinks_(dynamics_.drive().kinks()),
-      end_(output_.end()) {}
+      end_(options.end),
+      step_end_(options.step_ends_there ? options.end : std::numeric_limits<double>::infinity()),
+      next_projection_(kFirstProjection) {}
 
-std::vector<Result> Run::integrate() {
+void Run::integrate() {
+    for (const Observer* observer : state_.observers) end_ = std::max(end_, observer->end());
     try {
         start();
-        while (state_.t < end_ && !output_.done()) {
+        while (state_.t < end_ && !observers_are_done()) {
             check_budget();
             check_deflection();
             check_lock();
@@ -61,10 +77,12 @@ std::vector<Result> Run::integrate() {
         if (!started_)
             throw SolverError(
                 fmt::format("at the start: {}; give another initial.shape or initial.angle", failure.what()), 0, {});
-        std::vector<Result> partials = output_.fail(state_);
-        throw SolverError(explain(failure), state_.t, std::move(partials));
+        throw SolverError(explain(failure), state_.t, {});
     }
-    return output_.results();
+}
+
+bool Run::observers_are_done() const {
+    return !state_.observers.empty() && std::ranges::all_of(state_.observers, &Observer::done);
 }
 
 void Run::start() {
@@ -75,10 +93,10 @@ void Run::start() {
     state_.phase = initial.phase;
     transitions_.enter_phase();
     started_ = true;
-    output_.begin(state_);
     integrator_->stop_at(next_kink());
     transitions_.start(initial.continued ? &*initial.continued : nullptr);
     resume();
+    transitions_.announce_start();
 }
 
 const Segment& Run::step() {
@@ -93,7 +111,7 @@ void Run::process(const Segment& segment) {
     const Event event = first_event(segment);
     if (event.kind == EventKind::none) {
         const bool kink = segment.t1 >= next_kink();
-        record(segment, segment.t0, kink);
+        record(segment, segment.t0, segment.t1, kink);
         if (!kink) return;
     } else {
         if (!reach(segment, event)) return;
@@ -127,12 +145,11 @@ bool Run::reach(const Segment& segment, const Event& event) {
             return false;
         }
         // Even if the run ends before the event, so that it remains a prefix of a longer run.
-        record(ended, start, true);
+        record(ended, start, ended.t1, true);
         state_.idle_events = 0;
         return ended.t1 <= end_;
     }
-    segment.value(start, state_.y.data());
-    state_.t = start;
+    record(segment, start, start, true);
     if (++state_.idle_events > kMaxIdleEvents)
         throw RunStopped(Stop::stuck, "the contact changes its state again and again without time passing");
     return true;
@@ -150,17 +167,23 @@ const Segment& Run::shorten(double start, const Event& event, double& at) {
     return integrator_->shorten(at);
 }
 
-// Outputs the segment from `from` to the end of the run at most. `event`: an event follows at its end.
-void Run::record(const Segment& segment, double from, bool event) {
-    const double to = std::min(segment.t1, end_);
-    output_.segment(segment, from, to, event && segment.t1 <= end_);
+// Shows the segment from `from` to `until`, or to the end of the run. `event`: an event follows there.
+void Run::record(const Segment& segment, double from, double until, bool event) {
+    const double to = std::min(until, end_);
+    const bool goes_on = event && until <= end_;
+    for (Observer* observer : state_.observers) {
+        if (observer->done()) continue;
+        const double end = observer->end();
+        observer->step({&segment, from, std::min(to, end), end < to || (end == to && !goes_on)});
+    }
     segment.value(to, state_.y.data());
     state_.t = to;
 }
 
 // Starts the integrator: at the beginning and after each event.
 void Run::resume() {
-    output_.resume(state_);
+    for (Observer* observer : state_.observers)
+        if (!observer->done()) observer->resume(state_.t, state_.y, state_.phase);
     if (state_.t < end_) integrator_->start(state_.t, state_.y.data());
 }
 
@@ -199,9 +222,9 @@ void Run::check_lock() {
         resolve_impact(response, c.gap_rate, c.slip, system.friction().kinetic, 0, ImpactLaw::newton);
 }
 
-// The next instant at which the right-hand side is not smooth, or summed-up chatter ends.
+// The next instant at which a step ends: the right-hand side is not smooth, summed-up chatter ends, or the run does.
 double Run::next_kink() const {
-    const double kink = kinks_.empty() ? std::numeric_limits<double>::infinity() : kinks_.front();
+    const double kink = kinks_.empty() ? step_end_ : std::min(step_end_, kinks_.front());
     return std::min(kink, state_.chatter_end.value_or(kink));
 }
 

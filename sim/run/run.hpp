@@ -1,9 +1,7 @@
 // The integration of one motion: steps, event location, transitions, output. MODEL.md §§11–12.
 #pragma once
 
-#include <functional>
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "sim/dynamics/failure.hpp"
@@ -16,20 +14,25 @@
 namespace beamcam::sim {
 
 struct RunOptions {
-    MotionObserver* observer = nullptr;   // follows the motion and may end the run
+    double end = 0;  // the run extends to this instant, and to the ends of its observers [s]
+    // A step ends at `end`, whose state has then the accuracy of a step, not that of dense output.
+    bool step_ends_there = false;
     const InitialState* start = nullptr;  // initial state; null: that of the problem
-    // Wraps the integrator of the problem's solver into another one.
-    std::function<std::unique_ptr<Integrator>(System&, std::unique_ptr<Integrator>)> around = {};
 };
 
 class Run {
   public:
-    Run(const Problem& problem, std::span<const Request> requests, const Progress& progress, const RunOptions& options);
+    // Throws StepFailure where the model has no motion at all.
+    Run(const Problem& problem, const Progress& progress, const RunOptions& options = {});
+    // `observer` must live until the run has ended.
+    void add(Observer& observer) { state_.observers.push_back(&observer); }
+    // To the end, or until all observers are done. Throws SolverError, without results, and Interrupted.
+    void integrate();
 
-    // Throws SolverError with the partial results.
-    std::vector<Result> integrate();
-    Counters counters() const { return statistics().counters; }
+    bool started() const { return started_; }  // an initial state was found
+    const System& system() const { return dynamics_; }
     const RunState& state() const { return state_; }
+    RunStatistics statistics() const;
 
   private:
     void start();
@@ -38,7 +41,7 @@ class Run {
     Event first_event(const Segment& segment);
     bool reach(const Segment& segment, const Event& event);
     const Segment& shorten(double start, const Event& event, double& at);
-    void record(const Segment& segment, double from, bool event);
+    void record(const Segment& segment, double from, double until, bool event);
     void resume();
     void check_budget();
     void check_deflection() const;
@@ -47,7 +50,7 @@ class Run {
     bool is_reached(double t) const;
     void pass_kinks();
     void report(double t) const;
-    RunStatistics statistics() const;
+    bool observers_are_done() const;
     std::string explain(const StepFailure& failure);
 
     const Problem problem_;
@@ -56,21 +59,20 @@ class Run {
     System dynamics_;
     SegmentProbe probe_;
     RunState state_;
-    RunOutput output_;
     const Method method_;  // of the integrator: what "auto" means here
     std::unique_ptr<Integrator> integrator_;
     TouchSearch touch_search_;
     ContactGuards contact_guards_;
     Transitions transitions_;
     std::vector<double> kinks_;  // of the drive, after the present time [s]
-    double end_;                 // [s]
+    double end_, step_end_;      // of the run; an instant at which a step ends [s]
     double last_step_ = 0;       // [s]
     long steps_ = 0;
     // Projection of the whole run's steps: the result, attempted steps and time at the last projection, and attempted
     // steps at the next one.
     double projected_steps_ = 0, projected_at_time_ = 0;
-    long projected_at_step_ = 0, next_projection_ = kFirstProjection;
-    bool started_ = false;  // an initial state was found
+    long projected_at_step_ = 0, next_projection_;
+    bool started_ = false;
 };
 
 }  // namespace beamcam::sim

@@ -5,9 +5,14 @@
 #include <vector>
 
 #include "sim/dynamics/system.hpp"
-#include "sim/observe/recorder_set.hpp"
+#include "sim/observe/observer.hpp"
+#include "sim/observe/run_statistics.hpp"
 
 namespace beamcam::sim {
+
+// Stick and slip may both be impossible within rounding, and a rebound may be smaller than the error of a step. After
+// so many events at one instant the friction state is kept for one step, and an impact becomes plastic.
+inline constexpr int kMaxInstantEvents = 10;
 
 enum class EventKind { none, touch, release, clamp, friction, lift, kink };
 
@@ -26,6 +31,7 @@ struct RunState {
     int idle_events = 0;                // consecutive events at this instant
     std::optional<double> chatter_end;  // of summed-up chatter (S57) [s]
     RunStatistics statistics;           // without the counters of the integrator
+    std::vector<Observer*> observers;
 };
 
 }  // namespace beamcam::sim

@@ -7,6 +7,8 @@
 
 namespace beamcam::sim {
 
+constexpr double kLebesgue = 2.6;  // ≥ 1 + (2/π) ln 12, Lebesgue constant of 13 Chebyshev points
+
 int SegmentProbe::pieces(const Segment& segment) const {
     return static_cast<int>(
         std::clamp(std::ceil((segment.t1 - segment.t0) * system.highest_frequency()), 2.0, double(kMaxPieces)));

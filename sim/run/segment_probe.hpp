@@ -5,13 +5,16 @@
 #include <array>
 #include <vector>
 
-#include "sim/dynamics/constants.hpp"
 #include "sim/dynamics/system.hpp"
 #include "sim/integrate/gap_probe.hpp"
 #include "sim/integrate/integrator.hpp"
-#include "sim/run/constants.hpp"
 
 namespace beamcam::sim {
+
+// Subintervals of one step: the usual maximum, which resolves polynomials of degree twelve, and the limit at which the
+// search costs more than the integration.
+inline constexpr int kMaxPieces = 16;
+inline constexpr double kPieceLimit = 1e5;
 
 class SegmentProbe {
   public:

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <deque>
+#include <optional>
 
 #include "sim/base/clock.hpp"
+#include "sim/observe/recorder.hpp"
 #include "sim/run/horizon.hpp"
 #include "sim/run/run.hpp"
 
@@ -15,13 +18,31 @@ std::vector<Result> integrate(const Problem& problem, std::span<const Request> r
                               Effort* effort) {
     std::optional<Run> run;
     try {
-        run.emplace(problem, requests, progress, RunOptions{});
+        run.emplace(problem, progress);
     } catch (const StepFailure& failure) {  // the model itself
         throw SolverError(fmt::format("at the start: {}; use fewer modes", failure.what()), 0, {});
     }
-    std::vector<Result> results = run->integrate();
-    if (effort) effort->add(run->counters());
-    return results;
+    std::deque<Recorder> recorders;
+    for (const Request& request : requests) {
+        recorders.emplace_back(run->system(), request, [&run] { return run->statistics(); });
+        run->add(recorders.back());
+    }
+    const auto results = [&] {
+        std::vector<Result> all;
+        for (Recorder& recorder : recorders) all.push_back(std::move(recorder.result()));
+        return all;
+    };
+    try {
+        run->integrate();
+    } catch (SolverError& error) {
+        if (!run->started()) throw;
+        for (Recorder& recorder : recorders)
+            if (!recorder.done()) recorder.finish(run->state().t, run->state().y.data());
+        error.partials = results();
+        throw;
+    }
+    if (effort) effort->add(run->statistics().counters);
+    return results();
 }
 
 // The comparison run of the horizon. If it fails or exhausts its budget of steps, although the motion itself did not,

@@ -16,6 +16,8 @@
 
 namespace beamcam::sim {
 
+inline constexpr long kStepsPerReport = 16;  // steps between two calls of `progress`
+
 // The integration failed (exit code 4). `partials` hold the results up to `last_time`.
 struct SolverError : std::runtime_error {
     SolverError(const std::string& what, double last_good_time, std::vector<Result> partial_results);

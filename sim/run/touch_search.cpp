@@ -5,9 +5,20 @@
 #include <limits>
 
 #include "sim/base/assert.hpp"
+#include "sim/contact/chatter.hpp"
 
 namespace beamcam::sim {
 namespace {
+
+constexpr long kEvaluationsPerReport = 256;      // evaluations of the gap between two calls within one step
+constexpr long kMaxAdvances = 100000;            // of conservative advancement through one step
+constexpr long kFirstAdvances = 2000;            // from here on the search stops if kMaxAdvances will not suffice
+constexpr double kShortestAdvanceShare = 1e-15;  // of the time: rounding
+constexpr double kWorthwhileAdvance = 1.0 / 32;  // of the step: the least by the distance of the straight beam
+constexpr double kTouchGap = 1e-16;              // of the cam's radius: rounding
+constexpr int kMaxOpeningHalvings = 24;          // of the first subinterval, in search of an open gap after a release
+constexpr double kFootStiffness = 0.5;  // least r″·D + r′·r′ for which the gap's acceleration is bounded
+constexpr double kGapErrors = 10;       // step tolerances in the gap: several coordinates contribute
 
 // An instant after the start at which the gap is open, by halving the interval; the start itself if none is found.
 template <class Probe>
@@ -96,7 +107,7 @@ double TouchSearch::gap_acceleration_bound(const MotionBounds& b, double far) co
 }
 
 // Conservative advancement: from an open gap g with rate ġ no touch can occur before g + ġτ − ½Mτ² = 0, with M ≥ |g̈|.
-// So no touch is missed, however short. Once g + ġτ + ½Mτ² has a root, a touch is certain, and Newton's method finds
+// So practically no touch is missed. Once g + ġτ + ½Mτ² has a root, a touch is certain, and Newton's method finds
 // it.
 //                                                                                              (S56)
 std::optional<double> TouchSearch::by_advancement(const Segment& segment, const MotionBounds& bounds) {
@@ -156,7 +167,14 @@ std::optional<double> TouchSearch::advance(const Segment& segment, double t, Con
         // An opening gap is negative only by rounding.
         if (c.gap < 0 && c.gap_rate > 0 && c.gap > -kLowestBounce * problem().beam.length) c.gap = 0;
         if (c.gap < 0 || (c.gap == 0 && c.gap_rate < 0)) return t;
-        if (const auto certain = gap.certain_time(c.gap, c.gap_rate)) return falling(segment, t, c, t + *certain);
+        if (const auto certain = gap.certain_time(c.gap, c.gap_rate)) {
+            const auto evaluate = [&](double at) {
+                const ContactState there = probe_.gap(segment, at);
+                return GapAt{there.gap, there.gap_rate};
+            };
+            return falling_zero(evaluate, t, {c.gap, c.gap_rate}, t + *certain, segment.t1,
+                                kTouchGap * cam().shape().largest_radius());
+        }
         const double safe = gap.clear_time(c.gap, c.gap_rate);
         const double next = while_far(segment, bounds, t + std::max(safe, kShortestAdvanceShare * t));
         if (next >= segment.t1) return {};
@@ -170,23 +188,6 @@ std::optional<double> TouchSearch::advance(const Segment& segment, double t, Con
 std::optional<double> TouchSearch::by_resolving(const Segment& segment) {
     const double turns = (segment.t1 - segment.t0) * probe_.system.highest_frequency();
     return by_pieces(segment, segment.t1, std::max(kMaxPieces, probe_.limited(turns)));
-}
-
-// The gap falls from t on and vanishes before `latest`, which may lie beyond the segment: Newton's method with
-// bisection.
-std::optional<double> TouchSearch::falling(const Segment& segment, double t, ContactState c, double latest) {
-    double low = t, high = latest;
-    for (int i = 0; i < kMaxTouchIterations; ++i) {
-        double next = t - c.gap / c.gap_rate;
-        if (!(next > low && next < high)) next = 0.5 * (low + high);
-        next = std::min(next, segment.t1);
-        c = probe_.gap(segment, next);
-        if (next == segment.t1 && c.gap > 0) return {};
-        if (next == t || c.gap == 0 || std::fabs(c.gap) < kTouchGap * cam().shape().largest_radius()) return next;
-        (c.gap > 0 ? low : high) = next;
-        t = next;
-    }
-    return t;
 }
 
 }  // namespace beamcam::sim

@@ -25,7 +25,6 @@ class TouchSearch {
     std::optional<double> advance(const Segment& segment, double t, ContactState c, const MotionBounds& bounds,
                                   const Advancement& gap);
     std::optional<double> by_resolving(const Segment& segment);
-    std::optional<double> falling(const Segment& segment, double t, ContactState c, double latest);
     bool opens(const Segment& segment, double t);
     double step_error() const;
     double gap_acceleration_bound(const MotionBounds& bounds, double far) const;

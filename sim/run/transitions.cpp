@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/run/chatter.hpp"
-#include "sim/run/constants.hpp"
+#include "sim/contact/chatter.hpp"
 
 namespace beamcam::sim {
+
+constexpr double kFirstTouchStep = 0.05;  // of the time to maximum penetration, so that all stages see the force
+constexpr double kBounces = 4;            // largest number of bounces within the first step of a flight
 
 void Transitions::start(const InitialContact* continued) {
     if (continued) {
@@ -14,14 +16,16 @@ void Transitions::start(const InitialContact* continued) {
         last_release_ = continued->last_release;
     }
     if (!state_.phase.touching) return;
-    if (!continued) start_friction();
+    if (!continued) return start_friction();
+    if (state_.phase.held) return;
     const ContactState c = contact_now();
-    if (continued && !state_.phase.held) {
-        state_.clamp_side = c.factor < 0 ? -1 : 1;
-        integrator_.limit_first_step(kFirstTouchStep *
-                                     system_.touch_time(state_.t, state_.y.data(), c, state_.phase.approach));
-    }
-    output_.touch(state_.t, state_.y, c);
+    state_.clamp_side = c.factor < 0 ? -1 : 1;
+    integrator_.limit_first_step(kFirstTouchStep *
+                                 system_.touch_time(state_.t, state_.y.data(), c, state_.phase.approach));
+}
+
+void Transitions::announce_start() {
+    if (state_.phase.touching) announce(ContactEvent::touch, state_.y, contact_now());
 }
 
 void Transitions::apply(const Event& event) {
@@ -47,6 +51,11 @@ void Transitions::apply(const Event& event) {
     }
 }
 
+void Transitions::announce(ContactEvent event, const std::vector<double>& y, const ContactState& c) {
+    for (Observer* observer : state_.observers)
+        if (!observer->done()) observer->event(event, state_.t, y, c);
+}
+
 void Transitions::touch() {
     cancel_gap_rounding();
     state_.phase.touching = true;
@@ -64,7 +73,7 @@ void Transitions::touch() {
     start_friction();
     enter_phase();
     const ContactState c = contact_now();
-    output_.touch(state_.t, state_.y, c);
+    announce(ContactEvent::touch, state_.y, c);
     // A first step as long as the impact could move the beam into the cam before any stage evaluates the force.
     integrator_.limit_first_step(kFirstTouchStep *
                                  system_.touch_time(state_.t, state_.y.data(), c, state_.phase.approach));
@@ -72,7 +81,7 @@ void Transitions::touch() {
 
 void Transitions::release() {
     const ContactState c = contact_now();
-    output_.release(state_.t, state_.y, c);
+    announce(ContactEvent::release, state_.y, c);
     begin_flight();
     if (system_.has_bristle()) bristle() = 0;
 }
@@ -144,7 +153,7 @@ void Transitions::impact() {
     // The gap opens: it was negative only by rounding, and there is no impact.
     if (!slow && !(approach > 0)) return;
     if (!chatter && slow) ++state_.statistics.fallbacks.strikes;
-    output_.touch(state_.t, state_.y, c);
+    announce(ContactEvent::touch, state_.y, c);
     if (slow) impact = resolve(0);
     if (approach > 0) system_.apply_impact(state_.t, state_.y.data(), c, impact);
     const double pull_after = pull_on_cam();
@@ -161,7 +170,7 @@ void Transitions::impact() {
 void Transitions::record_rebound(const std::vector<double>& y, ContactState c, const ImpactResult& impact) {
     c.gap_rate = impact.v_n;
     c.slip = impact.v_t;
-    output_.release(state_.t, y, c);
+    announce(ContactEvent::release, y, c);
     last_release_ = state_.t;
 }
 
@@ -196,7 +205,7 @@ bool Transitions::sum_up_chatter(const ContactState& c, const ImpactResult& impa
         enter_phase();
         return false;
     }
-    output_.touch(state_.t, state_.y, c);
+    announce(ContactEvent::touch, state_.y, c);
     std::vector<double> struck = state_.y;
     system_.apply_impact(state_.t, struck.data(), c, impact);
     record_rebound(struck, c, impact);
@@ -208,7 +217,7 @@ bool Transitions::sum_up_chatter(const ContactState& c, const ImpactResult& impa
 }
 
 void Transitions::lift() {
-    if (!state_.chatter_end) output_.release(state_.t, state_.y, contact_now());
+    if (!state_.chatter_end) announce(ContactEvent::release, state_.y, contact_now());
     state_.chatter_end.reset();
     begin_flight();
 }
@@ -217,7 +226,7 @@ void Transitions::end_chatter() {
     state_.chatter_end.reset();
     ContactState c = contact_now();
     c.gap_rate = 0;  // but for rounding
-    output_.touch(state_.t, state_.y, c);
+    announce(ContactEvent::touch, state_.y, c);
 }
 
 void Transitions::enter_phase() {

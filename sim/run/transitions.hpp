@@ -1,7 +1,6 @@
 // The resets of state and phase at events, one function for each kind of event. MODEL.md §§8–10.
 #pragma once
 
-#include "sim/run/run_output.hpp"
 #include "sim/run/run_state.hpp"
 
 namespace beamcam::sim {
@@ -9,11 +8,13 @@ namespace beamcam::sim {
 class Transitions {
   public:
     // `dynamics` is integrated by `integrator`; `event_system` evaluates the contact at events.
-    Transitions(System& dynamics, System& event_system, Integrator& integrator, RunState& state, RunOutput& output)
-        : dynamics_(dynamics), system_(event_system), integrator_(integrator), state_(state), output_(output) {}
+    Transitions(System& dynamics, System& event_system, Integrator& integrator, RunState& state)
+        : dynamics_(dynamics), system_(event_system), integrator_(integrator), state_(state) {}
 
     // At the start of the run. `continued`: the contact that the motion continues; null: a new one, if there is one.
     void start(const InitialContact* continued);
+    // Observers learn that the motion starts in contact, once they know its phase.
+    void announce_start();
     void apply(const Event& event);
     void end_chatter();  // summed-up chatter ends: the beam rests on the cam (S57)
     void enter_phase();
@@ -26,6 +27,7 @@ class Transitions {
     void lift();
     void hold();
     bool sum_up_chatter(const ContactState& c, const ImpactResult& impact, const ImpactResult& plastic);
+    void announce(ContactEvent event, const std::vector<double>& y, const ContactState& c);
     void record_rebound(const std::vector<double>& y, ContactState c, const ImpactResult& impact);
     void cancel_gap_rounding();
     void begin_flight();
@@ -38,7 +40,6 @@ class Transitions {
     System &dynamics_, &system_;
     Integrator& integrator_;
     RunState& state_;
-    RunOutput& output_;
     double first_approach_ = 0, last_rebound_ = 0;  // [m/s]
     std::optional<double> last_release_;            // [s]
 };

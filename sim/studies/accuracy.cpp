@@ -7,13 +7,22 @@
 #include <limits>
 
 #include "sim/base/counted.hpp"
-#include "sim/run/constants.hpp"
+#include "sim/run/horizon.hpp"
 #include "sim/run/simulate.hpp"
-#include "sim/studies/constants.hpp"
 #include "sim/studies/trials.hpp"
 
 namespace beamcam::sim {
 namespace {
+
+constexpr double kReferenceRtol = 1e-13;    // the tightest tolerance
+constexpr double kCheckRtol = 1e-12;        // of the run that estimates the error of the reference
+constexpr double kReferenceRuns = 50;       // time limit of the reference and of contact variants, in longest runs
+constexpr double kModesRuns = 5;            // the same of each number of shapes
+constexpr double kModelRuns = 10;           // the same of each model
+constexpr double kShortestPart = 1.0 / 16;  // of the motion: least part over which models are compared
+constexpr int kModelShapes = 20;            // least number of shapes in the comparison of models
+constexpr int kPaperShapes = 6;             // the same of `paper`, which loses its positive inertia with more
+constexpr double kAsFar = 0.98;             // of the longest time within the target: as good
 
 class Assessment {
   public:

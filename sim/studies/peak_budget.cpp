@@ -10,7 +10,6 @@
 #include "sim/base/clock.hpp"
 #include "sim/base/counted.hpp"
 #include "sim/beam/model.hpp"
-#include "sim/run/constants.hpp"
 #include "sim/run/horizon.hpp"
 #include "sim/run/simulate.hpp"
 

@@ -6,10 +6,11 @@
 #include <cmath>
 
 #include "sim/run/simulate.hpp"
-#include "sim/studies/constants.hpp"
 
 namespace beamcam::sim {
 namespace {
+
+constexpr double kAllRuns = 20;  // after this time, in limits of one run, timings are not repeated
 
 std::string over_limit(double limit) { return fmt::format("{}: longer than {:g} s", kLeftOut, limit); }
 

@@ -13,6 +13,8 @@
 
 namespace beamcam::sim {
 
+inline constexpr int kInstants = 1000;  // at which motions are compared
+
 inline constexpr const char* kLeftOut = "left out";  // begins the note of a run that takes too long
 
 // One simulation with samples of the compared angle.

@@ -4,10 +4,17 @@
 #include <cmath>
 
 #include "sim/cam/cam_shape.hpp"
-#include "sim/sweep/constants.hpp"
 
 namespace beamcam::sim {
 namespace {
+
+constexpr double kSameState = 1e-5;          // of the cam's lift and its rate: closer states are equal
+constexpr double kUsualLift = 1e-3;          // [rad] in place of a lift of zero
+constexpr int kPeriodRepeats = 3;            // least number of repetitions of a period in the compared turns
+constexpr std::size_t kFewestTurns = 12;     // least number of turns for the classes without a period
+constexpr double kDifferenceNoise = 1e-7;    // of the lift: smaller changes of a difference are ignored
+constexpr double kSettledShare = 0.1;        // of a difference: largest distance of its extrapolated limit
+constexpr double kVanishingMismatch = 0.02;  // of the lift: a smaller distance from a period may still vanish
 
 using Strobes = std::span<const Strobe>;
 

@@ -6,9 +6,12 @@
 #include <utility>
 
 #include "sim/base/numerics.hpp"
-#include "sim/sweep/constants.hpp"
 
 namespace beamcam::sim {
+
+constexpr int kSurfacePlaces = 128;       // around the turn, to begin with: then halved where bounds ask for it
+constexpr double kSurfaceMargin = 0.005;  // of the range of θ̈_c, by which its bounds may exceed its extrema
+constexpr int kMostSurfaceHalvings = 30;  // of the distance of two places, to rounding
 
 CamSurface::CamSurface(const Cam& cam, double reach, double k, double alpha)
     : cam_(cam),

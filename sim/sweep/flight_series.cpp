@@ -4,9 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/sweep/constants.hpp"
-
 namespace beamcam::sim {
+
+constexpr double kSeriesReach = 0.9;  // of the length that the last terms of the series allow
+constexpr double kLongestTurn = 1;    // [rad] of a series without gravity, which is a polynomial
 
 // With s = sin θ, c = cos θ: j s_j = Σ i a_i c_{j−i}, j c_j = −Σ i a_i s_{j−i}, (j+1)(j+2) a_{j+2} = −k c_j + α δ_{j0}.
 // (S83)

@@ -4,6 +4,8 @@
 
 namespace beamcam::sim {
 
+inline constexpr double kAngleRounding = 2e-16;  // [rad] rounding of an angle; limit of the last terms of its series
+
 struct RodState {
     double theta = 0, rate = 0;  // [rad], [rad/s]
     bool operator==(const RodState&) const = default;

@@ -4,12 +4,16 @@
 #include <cmath>
 
 #include "sim/base/numerics.hpp"
+#include "sim/contact/chatter.hpp"
 #include "sim/run/advancement.hpp"
-#include "sim/run/constants.hpp"
-#include "sim/sweep/constants.hpp"
 #include "sim/sweep/sampler.hpp"
 
 namespace beamcam::sim {
+
+constexpr double kOpeningDepth = 1e-13;     // [rad] below the surface while the gap opens: rounding
+constexpr double kShortestAdvance = 1e-15;  // [s]
+constexpr double kFarFromAway = 1.5;        // [rad] from the cam's axis: a little less than π/2
+constexpr long kPlacesPerReport = 16384;    // comparisons with the surface between two calls of `progress`
 
 SampledMotion RigidMotion::follow(const Progress& progress) {
     progress_ = &progress;
@@ -51,10 +55,9 @@ bool RigidMotion::leaves(double dt) const {
     const double moves =
         (std::fabs(state_.rate) + 0.5 * (std::fabs(mirrored_.k) + std::fabs(mirrored_.alpha)) * dt) * dt;
     if (std::fabs(state_.theta - centre_direction_) + moves < kFarFromAway) return false;
-    const auto away = [&](double t) { return points_away(problem_, mirrored_.side * series_.theta(t)); };
-    const auto rate = [&](double t) { return series_.rate(t); };
-    const double first = rate(0), last = rate(dt);
-    return away(0) || away(dt) || (first * last < 0 && away(find_root(rate, 0, dt, first, last)));
+    return points_away(problem_, 0, dt, [&](double t) {
+        return HubAt{mirrored_.side * series_.theta(t), mirrored_.side * series_.rate(t)};
+    });
 }
 
 SurfaceAngle RigidMotion::surface_at(double s) {
@@ -71,44 +74,21 @@ std::optional<double> RigidMotion::first_touch(double h) {
     const Advancement above{std::fabs(mirrored_.k) - mirrored_.alpha + surface_.highest_acceleration(),
                             std::fabs(mirrored_.k) + mirrored_.alpha - surface_.lowest_acceleration()};
     double t = std::max(0.0, clear_until_ - s_);
+    const auto gap = [&](double at) {
+        const SurfaceAngle c = surface_at(s_ + at);
+        return GapAt{series_.theta(at) - c.angle, series_.rate(at) - surface_.rate(c)};
+    };
     while (t < h) {
         report();
-        const SurfaceAngle c = surface_at(s_ + t);
-        double g = series_.theta(t) - c.angle;
-        const double v = series_.rate(t) - surface_.rate(c);
+        auto [g, v] = gap(t);
         if ((touched_ && t == 0) || (g < 0 && v > 0 && g > -kOpeningDepth)) g = std::max(g, 0.0);
         if (g < 0 || (g == 0 && !(v > 0))) return t;
-        if (const auto certain = above.certain_time(g, v)) {
-            const double at = falling(t, t + *certain, h);
-            return at < h ? std::optional(at) : std::nullopt;
-        }
+        if (const auto certain = above.certain_time(g, v))
+            return falling_zero(gap, t, {g, v}, t + *certain, h, kAngleRounding);
         // The speed of a gap that opens may be rounding: it is followed until it might close by that of its angles.
         t += std::max(above.clear_time(g, v), g == 0 ? above.clear_time(kAngleRounding, 0) : kShortestAdvance);
     }
     return {};
-}
-
-// The angle above the surface falls from t on and vanishes before `latest`: Newton's method with bisection. The series
-// is not evaluated beyond h.
-double RigidMotion::falling(double t, double latest, double h) {
-    double low = t, high = std::min(latest, h);
-    for (int i = 0; i < kMaxSurfaceIterations; ++i) {
-        const SurfaceAngle c = surface_at(s_ + t);
-        const double g = series_.theta(t) - c.angle, v = series_.rate(t) - surface_.rate(c);
-        if (std::fabs(g) <= kAngleRounding) return t;
-        (g > 0 ? low : high) = t;
-        double next = t - g / v;
-        if (!(next >= low && next <= high)) {
-            if (next > high && t < high && g > 0 && high == h) {  // possibly no touch before h
-                const SurfaceAngle last = surface_.at(s_ + h);
-                if (series_.theta(h) - last.angle > 0) return h;
-            }
-            next = 0.5 * (low + high);
-        }
-        if (std::fabs(next - t) <= kTouchInstant * period_ || !(high > low)) return next;
-        t = next;
-    }
-    return t;
 }
 
 void RigidMotion::impact() {

@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "sim/run/chatter.hpp"
+#include "sim/contact/chatter.hpp"
 #include "sim/run/simulate.hpp"
 #include "sim/sweep/cam_surface.hpp"
 #include "sim/sweep/flight_series.hpp"
@@ -38,7 +38,6 @@ class RigidMotion {
     void stay_in_contact();
     SurfaceAngle surface_at(double s);  // caches the last result
     std::optional<double> first_touch(double h);
-    double falling(double t, double latest, double h);
     bool leaves(double dt) const;
     void impact();
     bool sums_up_chatter(const SurfaceAngle& c, const Bounce& bounce) const;

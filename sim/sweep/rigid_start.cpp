@@ -1,17 +1,18 @@
 // The motions that RigidMotion applies to, and their start.
 #include <cmath>
 
-#include "sim/sweep/constants.hpp"
 #include "sim/sweep/rigid_motion.hpp"
 
 namespace beamcam::sim {
+
+constexpr double kInsideBeam = 1e-3;  // of the length: least distance of the contact from the beam's ends and the axis
+constexpr double kRigidAccuracy = 1e-13;  // [rad] error of a settled motion: some hundred rounding errors
 
 bool RigidMotion::applies(const Problem& p, const Sampling& sampling) {
     const bool sampled = sampling.kind == SampleKind::impacts || sampling.kind == SampleKind::section;
     if (p.beam.model != ModelKind::rigid || !p.cam || p.cam->profile || p.hub.spring ||
         p.contact.model != ContactModel::restitution || !is_independent_of_time(p.hub.drive) ||
-        !std::holds_alternative<NoFriction>(p.contact.friction) || p.solver.method != Method::automatic || !sampled ||
-        std::isfinite(sampling.end_time))
+        !std::holds_alternative<NoFriction>(p.contact.friction) || p.solver.method != Method::automatic || !sampled)
         return false;
     const double away = norm(p.cam->centre), reach = p.cam->radius + contact_offset(p),
                  margin = kInsideBeam * p.beam.length;

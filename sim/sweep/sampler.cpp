@@ -6,13 +6,20 @@
 
 #include "sim/base/numerics.hpp"
 #include "sim/observe/crossings.hpp"
-#include "sim/sweep/constants.hpp"
 
 namespace beamcam::sim {
 
-bool points_away(const Problem& problem, double theta) {
+constexpr double kSettledTolerances = 10;  // error of a settled motion, in units of rtol
+constexpr int kCarriedRounds = 8;          // Newton iterations that move a carried state to the surface
+
+bool points_away(const Problem& problem, double from, double to, const std::function<HubAt(double)>& hub) {
     if (!problem.cam || is_prescribed(problem.hub.drive)) return false;
-    return dot(unit(theta), problem.cam->centre) < 0;
+    const auto away = [&](double angle) { return dot(unit(angle), problem.cam->centre) < 0; };
+    const HubAt first = hub(from), last = hub(to);
+    if (away(first.angle) || away(last.angle)) return true;
+    if (!(first.rate * last.rate < 0)) return false;
+    const auto rate = [&](double t) { return hub(t).rate; };
+    return away(hub(find_root(rate, from, to, first.rate, last.rate)).angle);
 }
 
 Sampler::Sampler(const System& system, const Sampling& sampling)
@@ -61,7 +68,7 @@ MotionSample Sampler::sample(double t, const double* y) {
 
 void Sampler::evaluate(const SegmentInterval& s, double t) { s.segment->value(std::clamp(t, s.from, s.to), y_.data()); }
 
-void Sampler::segment(const SegmentInterval& s) {
+void Sampler::step(const SegmentInterval& s) {
     strobes(s);
     if (s.to >= span_.t_from()) {
         if (sampling_.kind == SampleKind::section) sections(s);
@@ -73,21 +80,12 @@ void Sampler::segment(const SegmentInterval& s) {
     motion_.end.y = y_;
 }
 
-// The beam points away from the cam at an end of the step, or at a turning point in it.                    (S80)
 bool Sampler::leaves(const SegmentInterval& s) {
-    if (!system_.has_cam() || is_prescribed(system_.problem().hub.drive)) return false;
-    const auto model = [&](double t) -> const Model& {
+    return points_away(system_.problem(), s.from, s.to, [&](double t) {
         evaluate(s, t);
         system_.set_state(t, y_.data());
-        return system_.model();
-    };
-    const auto away = [&](double t) { return points_away(system_.problem(), model(t).hub_angle()); };
-    const auto rate = [&](double t) { return model(t).hub_rate(); };
-    if (away(s.from)) return true;
-    const double first = system_.model().hub_rate();
-    if (away(s.to)) return true;
-    const double last = system_.model().hub_rate();
-    return first * last < 0 && away(find_root(rate, s.from, s.to, first, last));
+        return HubAt{system_.model().hub_angle(), system_.model().hub_rate()};
+    });
 }
 
 void Sampler::strobes(const SegmentInterval& s) {
@@ -172,8 +170,17 @@ SampledMotion Sampler::take() {
     return std::move(motion_);
 }
 
+void Sampler::event(ContactEvent event, double t, const std::vector<double>& y, const ContactState& contact) {
+    switch (event) {
+        case ContactEvent::touch:
+            return touch(t, y.data(), contact);
+        case ContactEvent::release:
+            return release(t, contact);
+    }
+}
+
 // The end of summed-up chatter and a start in contact are touches without an approach: no impacts.
-void Sampler::touch(double t, const std::vector<double>& y, const ContactState& contact) {
+void Sampler::touch(double t, const double* y, const ContactState& contact) {
     impact_.reset();
     if (peaks_) peaks_->contact = 0;
     if (!(contact.gap_rate < 0) || t == 0) return;
@@ -181,14 +188,14 @@ void Sampler::touch(double t, const std::vector<double>& y, const ContactState& 
     if (!kept(t)) return;
     ++kept_impacts_;
     if (sampling_.kind != SampleKind::impacts) return;
-    impact_ = sample(t, y.data());
+    impact_ = sample(t, y);
     (*impact_)[kContactX] = contact.x;
     (*impact_)[kNormalBefore] = contact.gap_rate;
     (*impact_)[kTangentialBefore] = contact.slip;
     motion_.samples.push_back(*impact_);
 }
 
-void Sampler::release(double t, const std::vector<double>&, const ContactState& contact) {
+void Sampler::release(double t, const ContactState& contact) {
     left_ = true;
     if (peaks_ && kept(t)) {
         double& fastest = peaks_->sample[kReboundPeak];
@@ -207,7 +214,8 @@ SampledMotion sample_by_run(const Problem& problem, const Sampling& sampling, co
     std::optional<Sampler> sampler;
     try {
         sampler.emplace(System(problem), sampling);
-        Run run(problem, {}, progress, {.observer = &*sampler, .start = start});
+        Run run(problem, progress, {.start = start});
+        run.add(*sampler);
         run.integrate();
     } catch (const SolverError& error) {
         SampledMotion motion = sampler->take();

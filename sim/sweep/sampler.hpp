@@ -1,6 +1,7 @@
 // Samples of one motion, taken during the integration. The trajectory is not stored.
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "sim/observe/extrema.hpp"
@@ -10,15 +11,14 @@
 
 namespace beamcam::sim {
 
-class Sampler final : public MotionObserver {
+class Sampler final : public Observer {
   public:
     Sampler(const System& system, const Sampling& sampling);
 
-    double end() const override { return std::min(span_.t_to(), sampling_.end_time); }
+    double end() const override { return span_.t_to(); }
     void resume(double t, const std::vector<double>& y, const Phase& phase) override;
-    void segment(const SegmentInterval& s) override;
-    void touch(double t, const std::vector<double>& y, const ContactState& contact) override;
-    void release(double t, const std::vector<double>& y, const ContactState& contact) override;
+    void step(const SegmentInterval& s) override;
+    void event(ContactEvent event, double t, const std::vector<double>& y, const ContactState& contact) override;
     bool done() const override { return motion_.over_the_top; }
 
     SampledMotion take();
@@ -35,6 +35,8 @@ class Sampler final : public MotionObserver {
     };
     void raise_peaks(const SegmentInterval& s);
     void finish_peaks();
+    void touch(double t, const double* y, const ContactState& contact);
+    void release(double t, const ContactState& contact);
     bool kept(double t) const { return t >= span_.t_from(); }
     MotionSample sample(double t, const double* y);
     void strobe(double t, const double* y);
@@ -67,7 +69,11 @@ SampledMotion sample_by_run(const Problem& problem, const Sampling& sampling, co
 // sustained impulsive contact onto its surface.
 InitialState carried(const Problem& problem, const InitialState& end);
 
-// The beam points away from the cam.                                                                        (S80)
-bool points_away(const Problem& problem, double theta);
+// The hub at one instant [rad], [rad/s].
+struct HubAt {
+    double angle, rate;
+};
+// The beam points away from the cam at an end of an interval, or at a turning point in it.                  (S80)
+bool points_away(const Problem& problem, double from, double to, const std::function<HubAt(double)>& hub);
 
 }  // namespace beamcam::sim

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/sweep/constants.hpp"
-
 namespace beamcam::sim {
+
+constexpr double kWholeTurn = 1e-12;  // of the number of turns: rounding of a time in turns
 
 SampleSpan sample_span(const Problem& problem, const Sampling& sampling) {
     SampleSpan span;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +11,10 @@
 #include "sim/observe/channels.hpp"
 
 namespace beamcam::sim {
+
+// States are compared at this share of a turn of the cam after the start. It is not zero, because a motion that starts
+// on its orbit may have an impact there, at which the rate jumps.
+inline constexpr double kStrobePhase = 0.381966;
 
 enum class SampleKind {
     impacts,    // each touch, except the end of chatter
@@ -34,7 +37,6 @@ struct Sampling {
     double level = 0;
     bool rising = true;
     CamSpan transient{200, {}}, keep{50, {}};
-    double end_time = std::numeric_limits<double>::infinity();  // latest end of a motion [s]
     bool exponents = false;  // also compute the largest Lyapunov exponent of each motion, which may show chaos
 
     bool operator==(const Sampling&) const = default;

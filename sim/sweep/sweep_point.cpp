@@ -1,7 +1,6 @@
 #include "sim/sweep/sweep_point.hpp"
 
 #include "sim/orbit/exponents.hpp"
-#include "sim/run/run.hpp"
 #include "sim/sweep/rigid_motion.hpp"
 #include "sim/sweep/sampler.hpp"
 
@@ -53,11 +52,6 @@ SweepPoint sweep_point(const Problem& problem, const Sampling& sampling, const I
     if (sampling.exponents && point.motion.has_end()) add_exponent(problem, sampling, point, progress);
     if (point.motion.over_the_top) point.motion.samples.clear();  // of no attractor
     return point;
-}
-
-Result motion_from(const Problem& problem, const InitialState& end, const Request& request, const Progress& progress) {
-    const InitialState start = carried(problem, end);
-    return std::move(Run(problem, {&request, 1}, progress, {.start = &start}).integrate().front());
 }
 
 }  // namespace beamcam::sim

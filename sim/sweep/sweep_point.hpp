@@ -17,8 +17,4 @@ struct SweepPoint {
 SweepPoint sweep_point(const Problem& problem, const Sampling& sampling, const InitialState* start,
                        const Progress& progress);
 
-// The motion that continues another one of this or a neighbouring problem from its end, at which the cam has completed
-// whole turns. Throws SolverError, Interrupted.
-Result motion_from(const Problem& problem, const InitialState& end, const Request& request, const Progress& progress);
-
 }  // namespace beamcam::sim

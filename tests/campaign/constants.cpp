@@ -1,13 +1,11 @@
-// Perturbs each numerical constant of the tables sim/*/constants.hpp, up and down, and compares motions, extrema,
-// orbits and sweeps: results must not depend on it beyond what the tolerance allows.
+// Perturbs each numerical constant of sim/, up and down, and compares motions, extrema, orbits and sweeps: results must
+// not depend on it beyond what the tolerance allows.
 //
 //   campaign_constants [--verbose] [--twice] [NAME...]      --twice: by a factor of 2 instead of 1.1
 //
-// It is linked with a build of sim/ whose constants are variables (campaign/constants.py). The allowed change of a
-// result is its change in a problem whose numbers differ by kPerturbation, times kReserve. Prints the constants that
-// change a result by more, with --verbose also the others. The exit code is 1 if there are any.
-#include "sim/beam/constants.hpp"
-
+// It is linked with a build of sim/ whose constants at namespace scope are variables (campaign/constants.py). The
+// allowed change of a result is its change in a problem whose numbers differ by kPerturbation, times kReserve. Prints
+// the constants that change a result by more, with --verbose also the others. The exit code is 1 if there are any.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -18,20 +16,12 @@
 #include <variant>
 #include <vector>
 
-#include "sim/contact/constants.hpp"
-#include "sim/dynamics/constants.hpp"
-#include "sim/integrate/constants.hpp"
-#include "sim/observe/constants.hpp"
-#include "sim/orbit/constants.hpp"
 #include "sim/orbit/exponents.hpp"
 #include "sim/orbit/periodic_orbit.hpp"
-#include "sim/problem/constants.hpp"
 #include "sim/problem/problem.hpp"
-#include "sim/run/constants.hpp"
 #include "sim/run/simulate.hpp"
-#include "sim/studies/constants.hpp"
-#include "sim/sweep/constants.hpp"
 #include "sim/sweep/sweep_point.hpp"
+#include "tests/campaign/variable.hpp"
 #include "tests/sim/orbit/pressed_beam.hpp"
 
 namespace beamcam::sim::testing {
@@ -41,14 +31,6 @@ constexpr double kRtol = 1e-9;
 constexpr double kAtol = 1e-3 * kRtol;
 constexpr double kPerturbation = 10 * kRtol;
 constexpr double kReserve = 30;
-
-struct Constant {
-    const char *table, *name;
-    std::variant<double*, int*, long*, std::size_t*> value;
-};
-const Constant kConstants[] = {
-#include "constants.inc"
-};
 
 // Constants that define a result and not only the way to compute it, with what they define.
 const std::map<std::string, const char*> kDefinitions{
@@ -240,7 +222,7 @@ int main(int argc, char** argv) {
         if (verbose) fmt::print("{}: {} results\n", c.name, before.back().size());
     }
     int depends = 0, idle = 0, count = 0;
-    for (const Constant& constant : kConstants) {
+    for (const beamcam::sim::Constant& constant : beamcam::sim::all_constants()) {
         if (kDefinitions.contains(constant.name)) continue;
         if (!names.empty() && std::find(names.begin(), names.end(), constant.name) == names.end()) continue;
         ++count;
@@ -267,7 +249,7 @@ int main(int argc, char** argv) {
         if (most == 0) ++idle;
         if (most > 1) ++depends;
         if (most > 1 || verbose)
-            fmt::print("{:<10} {:<24} {:8.2g} {} {}\n", constant.table, constant.name, most, where,
+            fmt::print("{:<32} {:<24} {:8.2g} {} {}\n", constant.file, constant.name, most, where,
                        most > 1 ? "DEPENDS" : "");
     }
     fmt::print("{} constants perturbed by {:g}: results depend on {}, none of the cases feels {}\n", count, factor,

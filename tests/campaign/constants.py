@@ -1,29 +1,44 @@
 #!/usr/bin/env python3
-"""Copies the tables of numerical constants, changes the constants to variables and lists them, for campaign_constants.
+"""Copies the sources of sim/ with their numerical constants as variables, for campaign_constants.
 
-    constants.py SIM OUT    SIM/<folder>/constants.hpp -> OUT/sim/<folder>/constants.hpp, OUT/constants.inc
+    constants.py SIM OUT    SIM/<folder>/<file> -> OUT/sim/<folder>/<file>
 """
 import pathlib
 import re
 import sys
 
-# Constants that determine the layout of memory.
-FIXED = {"kTangentMemories", "kMaxPieces"}
+DECLARATION = re.compile(r"^(inline )?constexpr (double|int|long|std::size_t) (k[A-Z][^;{\[]*);", re.M)
+NAME = re.compile(r"\b(k[A-Z]\w*)\s*=\s*")
 
 source, out = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
-rows = []
-for table in sorted(source.glob("*/constants.hpp")):
-    folder = table.parent.name
+files = {path: path.read_text("utf-8") for path in sorted(source.glob("*/*.[ch]pp"))}
+everything = "\n".join(files.values())
 
-    def variable(match):
-        names = re.findall(r"\b(k[A-Z]\w*) =", match[2])
-        if FIXED & set(names):
-            return match[0]
-        rows.extend(f'{{"{folder}", "{name}", &{name}}},' for name in names)
-        return f"inline {match[1]} {match[2]};"
 
-    text = re.sub(r"^inline constexpr (double|int|long|std::size_t) ([^;]*);", variable, table.read_text("utf-8"), flags=re.M)
-    copy = out / "sim" / folder / "constants.hpp"
+# The sizes of arrays, arguments of templates and other constant expressions need constants.
+def is_fixed(name):
+    expressions = rf"\[[^\]\n]*\b{name}\b|<[^<>;&|\n]*\b{name}\b[^<>;&|\n]*>|\bconstexpr\b[^;]*=[^;]*\b{name}\b(?! =)"
+    return re.search(expressions, everything)
+
+
+def variable(file, match):
+    names = NAME.findall(match[3])
+    if any(is_fixed(name) for name in names):
+        return match[0]
+    values = [part.strip(" ,\n") for part in NAME.split(match[3])[1:]]
+    lines = [f'{match[1] or "static "}{match[2]}& {name} = variable<{match[2]}>("{file}", "{name}", {value});'
+             for name, value in zip(values[::2], values[1::2])]
+    return " ".join(lines)
+
+
+COEFFICIENTS = {"integrate/rk8_tableau.hpp"}  # of a published method
+
+for path, text in files.items():
+    name = path.relative_to(source).as_posix()
+    copy = out / "sim" / name
     copy.parent.mkdir(parents=True, exist_ok=True)
-    copy.write_text(text, "utf-8")
-(out / "constants.inc").write_text("\n".join(rows) + "\n", "utf-8")
+    changed = text if name in COEFFICIENTS else DECLARATION.sub(lambda match: variable(name, match), text)
+    if changed != text:
+        changed = '#include "tests/campaign/variable.hpp"\n' + changed
+    if not copy.exists() or copy.read_text("utf-8") != changed:
+        copy.write_text(changed, "utf-8")

@@ -32,8 +32,7 @@ TEST(Failure, LargeDeflectionsOfAModalModelNameTheModelExact) {
     Problem p;
     p.gravity = 1e6;
     const std::string message = message_of(p, 0.01);
-    EXPECT_THAT(message, AllOf(HasSubstr("has bent through"), HasSubstr("gravity 1e+06"), HasSubstr("\"exact\"")));
-    EXPECT_THAT(message, Not(HasSubstr("hub-beam\"")));
+    EXPECT_THAT(message, AllOf(HasSubstr("has bent through"), HasSubstr("gravity is 1e+06"), HasSubstr("\"exact\"")));
     // Also before the contact, where the inertia is lost first.
     p.initial.angle = 0.44;
     p.initial.angular_velocity = -2;
@@ -68,11 +67,8 @@ TEST(Failure, ABeamPressedThroughTheCamByItsDriveNamesTheDrive) {
     p.hub.drive = ConstantSpeed{-50};
     p.beam.modes = 1;
     p.beam.youngs_modulus = 1e14;
-    EXPECT_THAT(message_of(p, 0.2), AllOf(HasSubstr("pressed through"), HasSubstr("hub.drive"), HasSubstr("stiffness"),
-                                          Not(HasSubstr("gravity"))));
-    // No force changes the motion of a rigid beam on a prescribed hub.
-    p.beam.model = ModelKind::rigid;
-    EXPECT_THAT(message_of(p, 0.2), AllOf(HasSubstr("change hub.drive or the cam's path"), Not(HasSubstr("raise"))));
+    EXPECT_THAT(message_of(p, 0.2),
+                AllOf(HasSubstr("pressed through"), HasSubstr("which no impact does"), HasSubstr("change hub.drive")));
 }
 
 TEST(Failure, RotationThatDestabilizesAModelIsNamed) {

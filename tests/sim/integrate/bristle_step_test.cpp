@@ -90,7 +90,7 @@ TEST(BristleStep, StoresTheWorkOfStick) {
 // ---- motions -------------------------------------------------------------------------------------
 
 // The changes of the friction's state. Those closer than `kOneInstant` count as one.
-class FrictionChanges final : public MotionObserver {
+class FrictionChanges final : public Observer {
   public:
     struct Change {
         double t;
@@ -102,9 +102,8 @@ class FrictionChanges final : public MotionObserver {
         while (!all.empty() && t - all.back().t < kOneInstant) all.pop_back();
         if (all.empty() || all.back().state != phase.friction) all.push_back({t, phase.friction});
     }
-    void segment(const SegmentInterval&) override {}
-    void touch(double, const std::vector<double>&, const ContactState&) override {}
-    void release(double, const std::vector<double>&, const ContactState&) override {}
+    void step(const SegmentInterval&) override {}
+    void event(ContactEvent, double, const std::vector<double>&, const ContactState&) override {}
     bool done() const override { return false; }
     std::vector<Change> all;
 
@@ -123,13 +122,10 @@ Motion motion(const Problem& p, const std::vector<double>& times) {
     request.tables.push_back({times,
                               {channel("theta"), channel("theta_dot"), channel("tip_deflection"),
                                channel("friction_force"), channel("energy_contact"), channel("loss_friction")}});
-    RunOptions options;
-    options.observer = &changes;
-    const Progress silent;  // `run` refers to it
-    Run run(p, {&request, 1}, silent, options);
-    Motion out{run.integrate().front(), {}};
-    out.changes = changes.all;
-    return out;
+    Run run(p, {}, {.end = std::ranges::max(times)});
+    run.add(changes);
+    run.integrate();
+    return {simulate(p, request), changes.all};
 }
 
 struct Case {

@@ -3,7 +3,6 @@
 #include <ostream>
 
 #include "sim/base/numerics.hpp"
-#include "sim/integrate/constants.hpp"
 #include "sim/integrate/oscillator.hpp"
 #include "tests/sim/support.hpp"
 

@@ -297,6 +297,16 @@ TEST(Validate, WarnsOfARestitutionFarFromThatOfTheLaw) {
         p.contact.damping = DampingLaw::zhang_sharf;
         EXPECT_TRUE(validate(p).empty()) << set;
     }
+    // At 0 that law is not possible: the one that is recommended is.
+    p.contact.restitution = 0;
+    p.contact.damping = DampingLaw::lankarani_nikravesh;
+    const std::vector<Issue> found = validate(p);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_NE(found[0].message.find("\"zhang-sharf\" gives 0.01 for \"restitution\": 0.01"), std::string::npos)
+        << found[0].message;
+    p.contact.restitution = 0.01;
+    p.contact.damping = DampingLaw::zhang_sharf;
+    EXPECT_TRUE(validate(p).empty());
     p.contact.restitution = 0.05;
     p.contact.damping = DampingLaw::none;  // chosen, and without a restitution
     EXPECT_TRUE(validate(p).empty());

@@ -192,11 +192,10 @@ TEST(ContinuedMotion, SeveralTimesInARowIsStillTheMotion) {
 // A run follows a problem of its own: the caller's may be a temporary.
 TEST(ContinuedMotion, RunOutlivesTheProblemItWasGiven) {
     auto p = std::make_unique<Problem>();
-    Request request;
-    request.end_time = 0.1;
-    sim::Run run(*p, {&request, 1}, {}, {});
+    sim::Run run(*p, {}, {.end = 0.1});
     p.reset();
-    EXPECT_EQ(run.integrate().at(0).end_time, 0.1);
+    run.integrate();
+    EXPECT_EQ(run.state().t, 0.1);
 }
 
 }  // namespace

@@ -4,11 +4,22 @@
 
 #include <cmath>
 
-#include "sim/observe/constants.hpp"
 #include "sim/problem/problem.hpp"
-#include "sim/run/constants.hpp"
 
 namespace beamcam::sim {
+
+// Bounces slower than this share of the approach floor are summed up where nothing else changes meanwhile.
+inline constexpr double kSummedShare = 0.1;
+// Elsewhere a rebound slower than this share of the floor ends the chatter in sustained contact. A bouncing point then
+// rests at most 2v/(g(1 − e)) too early (MODEL.md §9).
+inline constexpr double kChatterShare = 1e-3;
+inline constexpr double kRestSpeed = 1e-12;         // [m/s]: smaller speeds are rounding
+inline constexpr double kRestAcceleration = 1e-20;  // [m/s²]: smaller ones are rounding, and move nothing in any run
+inline constexpr double kLowestBounce = 1e-13;      // of the beam's length: a hundred times the gap's rounding error
+inline constexpr double kPlastic = 1e-9;            // of the approach speed: a slower rebound is rounding
+// Conditions of summed-up chatter (S57): its duration times the highest frequency, for an error of (10⁻³)²/6 of the
+// last rebound; and the relative change of the acceleration towards the cam.
+inline constexpr double kBriefChatter = 1e-3, kSteadyPull = 1e-2;
 
 // Normal speeds before and after an impact [m/s].
 struct Bounce {

@@ -1,0 +1,87 @@
+#include "sim/orbit/tangents.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace beamcam::sim {
+namespace {
+
+constexpr double kSlowestMotion = 1e-3;  // [1/s] rate of the hub's unit without cam speed and gravity
+
+// √J Ω and √m ω_i of angle and deflections, √J and √m of their rates: each row is then the root of an energy.
+Eigen::VectorXd units_of(System& system) {
+    const Problem& problem = system.problem();
+    const auto& model = dynamic_cast<const ModalModel&>(system.model());
+    const int n = system.coordinates();
+    const double speed = problem.cam ? std::fabs(problem.cam->speed) : 0;
+    const double pendulum = std::sqrt(std::fabs(problem.gravity) / problem.beam.length);
+    const double inertia = std::sqrt(model.matrices().J), mass = std::sqrt(model.mass());
+    Eigen::VectorXd units = Eigen::VectorXd::Constant(2 * n + kTangentMemories, mass);
+    units[0] = inertia * std::max({speed, pendulum, kSlowestMotion});
+    units[n] = inertia;
+    for (int i = 1; i < n; ++i) units[i] = mass * model.frequency(i - 1);
+    if (system.has_bristle()) units[2 * n] = std::sqrt(system.friction().stiffness);
+    return units;
+}
+
+}  // namespace
+
+Tangents::Tangents(const System& system, double end, double rtol, const Eigen::MatrixXd& tangents,
+                   const Progress& progress)
+    : probe_(system),
+      jets_(probe_),
+      n_(probe_.coordinates()),
+      units_(units_of(probe_)),
+      tangents_(Eigen::MatrixXd::Zero(2 * n_ + kTangentMemories, tangents.cols())),
+      y_(static_cast<std::size_t>(probe_.size)),
+      tangent_step_(probe_, jets_, units_, rtol, progress),
+      saltation_(probe_, jets_, units_),
+      end_(end) {
+    tangents_.topRows(2 * n_) = tangents;
+}
+
+void Tangents::resume(double t, const std::vector<double>& y, const Phase& phase) {
+    const std::size_t touched = touches().size();
+    if (std::exchange(begun_, true)) saltation_.pass(t, y_.data(), phase_, y.data(), phase, tangents_);
+    if (std::exchange(starts_kept_, false) && phase.held) saltation_.start_on_cam(t, y.data(), phase, tangents_);
+    phase_ = phase;
+    t_ = t;
+    y_ = y;
+    tangent_step_.begin(phase);
+    if (pause_ && touches().size() > touched) next_pause_ = pause_(t);
+}
+
+void Tangents::step(const SegmentInterval& s) {
+    while (t_ < s.to) {
+        const double to = std::min(s.to, next_pause_);
+        if (to > t_) tangent_step_.advance(*s.segment, t_, to, tangents_);
+        t_ = to;
+        s.segment->value(t_, y_.data());
+        if (pause_ && t_ >= next_pause_) next_pause_ = pause_(t_);
+    }
+    s.segment->value(s.to, y_.data());
+}
+
+double Tangents::inertia_share() const { return jets_.inertia_share(y_.data() + 1); }
+
+Eigen::MatrixXd Tangents::tangents(bool canonical) const {
+    Eigen::MatrixXd all = tangents_;
+    if (canonical) all.row(n_) *= inertia_share();
+    return all;
+}
+
+Eigen::MatrixXd Tangents::factor() {
+    const Eigen::Index columns = tangents_.cols();
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(tangents_);
+    tangents_ = qr.householderQ() * Eigen::MatrixXd::Identity(tangents_.rows(), columns);
+    return qr.matrixQR().topRows(columns).triangularView<Eigen::Upper>();
+}
+
+void Tangents::set_canonical(const Eigen::MatrixXd& tangents) {
+    tangents_ = tangents;
+    tangents_.row(n_) /= inertia_share();
+}
+
+}  // namespace beamcam::sim
