@@ -7,8 +7,6 @@
 
 namespace beamcam::output {
 
-enum class PixelLayout { yuv420, yuva420, yuva444p10, bgra, indices };
-
 // Writes `part` of the picture into the frame. `table`: only for `indices`.
 void convert(const render::Image& image, PixelLayout layout, const PaletteTable* table, const FramePlanes& frame,
              const render::DirtyTiles& part);

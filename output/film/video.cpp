@@ -11,11 +11,9 @@
 #include <utility>
 
 #include "output/files/atomic_file.hpp"
-#include "output/film/encoder_recipe.hpp"
+#include "output/film/encoder_settings.hpp"
 #include "output/film/palette.hpp"
 #include "output/film/pixel_layout.hpp"
-#include "output/film/video_encoder.hpp"
-#include "output/film/video_library.hpp"
 #include "sim/base/clock.hpp"
 
 namespace beamcam::output {
@@ -84,9 +82,9 @@ struct VideoWriter::Impl {
     void open() {
         if (options.variable_rate) longest_hold = std::lround(kLongestHold * options.fps.value());
         if (!options.palette.empty()) table.emplace(options.palette);
-        OpenedEncoder opened = open_encoder(options, file);
-        layout = opened.layout;
-        encoder = std::move(opened.encoder);
+        const EncoderSettings settings = encoder_settings(options, file);
+        layout = settings.layout;
+        encoder = open_encoder(settings, options);
     }
 
     // Slots for one more input.

@@ -44,7 +44,7 @@ const Container* container(std::string_view ending) {
 
 constexpr int kLargestWebpSide = 16383;                                // its fields have 14 bits
 constexpr std::int64_t kLargestPicture = (std::int64_t{1} << 31) - 1;  // av_image_check_size
-constexpr double kSlowest = 0.1, kFastest = 1000, kFastestGif = 50;    // [Hz]
+constexpr double kFastestGif = 50;                                     // [Hz]
 
 std::string plain(double value) {
     std::string text = std::to_string(value);
@@ -120,7 +120,7 @@ std::string size_problem(Codec codec, int width, int height) {
 }
 
 std::string rate_problem(Codec codec, double fps) {
-    if (!(fps >= kSlowest && fps <= kFastest))
+    if (!(fps >= kSlowestRate && fps <= kFastestRate))
         return plain(fps) + " frames per second is not possible; use 0.1 to 1000";
     if (codec == Codec::gif && fps > kFastestGif)
         return "a GIF counts in hundredths of a second, and players slow down one of more than 50 frames per second; "

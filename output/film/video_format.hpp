@@ -23,6 +23,8 @@ std::optional<Codec> codec_named(std::string_view name);
 std::optional<Codec> default_codec(std::string_view ending);
 bool goes_into(Codec codec, std::string_view ending);
 
+inline constexpr double kSlowestRate = 0.1, kFastestRate = 1000;  // [Hz]; players fail long before
+
 // Frames per second as a fraction: 29.97 means 30000/1001.
 struct FrameRate {
     int numerator = 60, denominator = 1;  // both > 0, in lowest terms

@@ -1,5 +1,5 @@
-// Interface of the module that links FFmpeg (beamcam_video.so, from output/film/ffmpeg/): encoders, decoders, and
-// joining of films packet by packet. It is loaded at its first use.
+// Interface of the module that links FFmpeg (beamcam_video.so, from output/film/ffmpeg/): encoders, and the facts that
+// films state about themselves. It is loaded at its first use.
 //
 // All functions throw the errors of errors.hpp, CodecFailure, or std::bad_alloc.
 #pragma once
@@ -35,11 +35,15 @@ struct FilmSettings {
     std::map<std::string, std::string> metadata;
 };
 
+// How the pixels of a frame lie in its planes.
+enum class PixelLayout { yuv420, yuva420, yuva444p10, bgra, indices };
+
 struct EncoderSettings : FilmSettings {
     std::filesystem::path file;                             // exists; it is overwritten
     std::filesystem::path named;                            // its name in messages
     std::string container;                                  // FFmpeg's name of the muxer
     std::string encoder, pixel_format;                      // FFmpeg's names
+    PixelLayout layout = PixelLayout::yuv420;               // of that pixel format
     OptionList encoder_options, container_options;          //
     std::string missing;                                    // message if the encoder does not exist
     std::optional<std::array<std::uint32_t, 256>> palette;  // 0xAARRGGBB, for "pal8"

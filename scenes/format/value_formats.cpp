@@ -16,8 +16,6 @@ namespace {
 
 using output::kLargestSide, output::kSmallestSide, output::number_in;
 
-constexpr double kSlowestFrameRate = 0.1, kFastestFrameRate = 1000;  // [Hz]; players fail long before
-
 // ---- size and frame rate -----------------------------------------------------------------------
 
 std::optional<Size> parse_size(std::string_view text) {
@@ -49,11 +47,11 @@ std::optional<FrameRate> parse_frame_rate(std::string_view text) {
         rate = {*over, *under};
     } else {
         const auto value = number_in<double>(text);
-        if (!value || !(*value >= kSlowestFrameRate && *value <= kFastestFrameRate)) return std::nullopt;
+        if (!value || !(*value >= output::kSlowestRate && *value <= output::kFastestRate)) return std::nullopt;
         rate = output::frame_rate(*value);  // 29.97 means 30000/1001
     }
-    if (rate.numerator <= 0 || rate.denominator <= 0 || rate.value() < kSlowestFrameRate ||
-        rate.value() > kFastestFrameRate)
+    if (rate.numerator <= 0 || rate.denominator <= 0 || rate.value() < output::kSlowestRate ||
+        rate.value() > output::kFastestRate)
         return std::nullopt;
     const int divisor = std::gcd(rate.numerator, rate.denominator);
     return FrameRate{rate.numerator / divisor, rate.denominator / divisor};
@@ -65,7 +63,7 @@ std::optional<FrameRate> read_frame_rate(ObjectReader& r, const Node& node, cons
     if (!rate)
         r.reject_value(node, key,
                        " is not a frame rate; write {} … {} frames a second, or a fraction such as \"30000/1001\"",
-                       kSlowestFrameRate, kFastestFrameRate);
+                       output::kSlowestRate, output::kFastestRate);
     return rate;
 }
 
@@ -155,7 +153,7 @@ ValueFormat frame_rate_format(FrameRate& rate) {
         rate, "number or \"30000/1001\"",
         fmt::format(R"({{"oneOf": [{{"type": "number", "minimum": {}, "maximum": {}}}, {{"type": "string", )"
                     R"("pattern": "^(?!0+(\\.0*)?(/|$))[0-9]+(\\.[0-9]+|/[0-9]*[1-9][0-9]*)?$"}}]}})",
-                    kSlowestFrameRate, kFastestFrameRate),
+                    output::kSlowestRate, output::kFastestRate),
         read_frame_rate, write);
 }
 

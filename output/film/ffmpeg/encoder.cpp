@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "output/film/encoder_recipe.hpp"
 #include "output/film/ffmpeg/library.hpp"
 
 extern "C" {
