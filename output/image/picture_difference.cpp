@@ -25,49 +25,8 @@ int channel_difference(const std::uint8_t* p, const std::uint8_t* q) {
     return largest;
 }
 
-bool same_pixel(const std::uint8_t* p, const std::uint8_t* q) { return std::memcmp(p, q, 4) == 0; }
-
 void require_one_size(const Raster& a, const Raster& b) {
     if (a.width != b.width || a.height != b.height) throw std::logic_error("difference of pictures of two sizes");
-}
-
-// ---- antialiasing ------------------------------------------------------------------------------
-
-// Calls visit(x, y) for the up to eight neighbours.
-template <typename Visit>
-void for_neighbours(const Raster& r, int x, int y, Visit visit) {
-    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, r.height - 1); ++v)
-        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, r.width - 1); ++u)
-            if (u != x || v != y) visit(u, v);
-}
-
-// At least three neighbours have the pixel's colour; the border of the picture counts as one.
-bool in_plain_area(const Raster& r, int x, int y) {
-    int same = x == 0 || y == 0 || x == r.width - 1 || y == r.height - 1 ? 1 : 0;
-    for_neighbours(r, x, y, [&](int u, int v) { same += same_pixel(r.at(x, y), r.at(u, v)) ? 1 : 0; });
-    return same > 2;
-}
-
-bool looks_antialiased(const Raster& r, int x, int y, const Raster& other) {
-    int same = x == 0 || y == 0 || x == r.width - 1 || y == r.height - 1 ? 1 : 0;
-    const double own = brightness(r.at(x, y));
-    double darkest = 0, brightest = 0;
-    std::array<int, 2> dark{}, bright{};
-    for_neighbours(r, x, y, [&](int u, int v) {
-        const double step = brightness(r.at(u, v)) - own;
-        if (step == 0) ++same;
-        if (step < darkest) darkest = step, dark = {u, v};
-        if (step > brightest) brightest = step, bright = {u, v};
-    });
-    if (same > 2 || darkest == 0 || brightest == 0) return false;
-    const auto plain_in_both = [&](const std::array<int, 2>& at) {
-        return in_plain_area(r, at[0], at[1]) && in_plain_area(other, at[0], at[1]);
-    };
-    return plain_in_both(dark) || plain_in_both(bright);
-}
-
-bool is_antialiasing(const Raster& a, const Raster& b, int x, int y) {
-    return looks_antialiased(a, x, y, b) || looks_antialiased(b, x, y, a);
 }
 
 // ---- structural similarity ---------------------------------------------------------------------
@@ -135,7 +94,7 @@ void measure_similarity(const Raster& a, const Raster& b, PictureDifference& d) 
 // ---- the picture of the difference -------------------------------------------------------------
 
 using Rgb = std::array<std::uint8_t, 3>;
-constexpr Rgb kChanged{0xd5, 0x5e, 0x00}, kEdge{0xe6, 0xb8, 0x00}, kFrame{0x00, 0x72, 0xb2};
+constexpr Rgb kChanged{0xd5, 0x5e, 0x00}, kFrame{0x00, 0x72, 0xb2};
 
 void put(Raster& r, int x, int y, const Rgb& color) {
     if (x < 0 || y < 0 || x >= r.width || y >= r.height) return;
@@ -173,7 +132,6 @@ PictureDifference difference(const Raster& a, const Raster& b, int threshold) {
             d.largest = std::max(d.largest, step);
             if (step <= threshold) continue;
             ++d.changed;
-            if (is_antialiasing(a, b, x, y)) ++d.antialiased;
             d.box.add(x, y);
         }
     }
@@ -191,7 +149,7 @@ Raster difference_picture(const Raster& a, const Raster& b, int threshold) {
             const auto grey = static_cast<std::uint8_t>(std::lround(255 - (255 - brightness(a.at(x, y))) / 4));
             Rgb color{grey, grey, grey};
             if (channel_difference(a.at(x, y), b.at(x, y)) > threshold) {
-                color = is_antialiasing(a, b, x, y) ? kEdge : kChanged;
+                color = kChanged;
                 box.add(x, y);
             }
             put(picture, x, y, color);

@@ -22,25 +22,22 @@ struct PixelBox {  // [px], right and bottom not included
 
 struct PictureDifference {
     std::size_t pixels = 0;
-    std::size_t changed = 0;      // pixels with a channel that differs by more than the threshold
-    std::size_t antialiased = 0;  // of these, pixels that look like antialiasing in one of the pictures (see below)
-    int largest = 0;              // largest difference of a channel, 0…255
-    PixelBox box;                 // around the changed pixels
-    double ssim = 1;              // mean structural similarity of brightness, −1…1
-    double lowest_ssim = 1;       // of the least similar window
+    std::size_t changed = 0;  // pixels with a channel that differs by more than the threshold
+    int largest = 0;          // largest difference of a channel, 0…255
+    PixelBox box;             // around the changed pixels
+    double ssim = 1;          // mean structural similarity of brightness, −1…1
+    double lowest_ssim = 1;   // of the least similar window
 
     bool identical() const { return largest == 0; }
     double share() const { return pixels == 0 ? 0 : static_cast<double>(changed) / static_cast<double>(pixels); }
 };
 
 // Structural similarity: Z. Wang et al., IEEE Trans. Image Process. 13 (2004) 600, of the brightness (BT.709) over
-// white, in windows of 8 × 8 pixels four apart, as in FFmpeg's filter "ssim". Antialiasing: a pixel between a brighter
-// and a darker neighbour, one of which lies in a plain area of both pictures; V. Vyšniauskas, "Anti-aliased pixel and
-// intensity slope detector", Elektronika ir Elektrotechnika 95 (2009) 107. Throws std::logic_error if the sizes
+// white, in windows of 8 × 8 pixels four apart, as in FFmpeg's filter "ssim". Throws std::logic_error if the sizes
 // differ.
 PictureDifference difference(const Raster& a, const Raster& b, int threshold = 0);
 
-// `a` in pale grey, with changed pixels in vermilion, antialiasing in yellow, and a frame around them.
+// `a` in pale grey, with changed pixels in vermilion and a frame around them.
 Raster difference_picture(const Raster& a, const Raster& b, int threshold = 0);
 
 }  // namespace beamcam::output

@@ -46,9 +46,7 @@ std::string to_text(const output::PictureDifference& d) {
     std::string text = fmt::format("{} of {} pixels ({:.3g} %), largest channel difference {} of 255", d.changed,
                                    d.pixels, 100 * d.share(), d.largest);
     if (d.changed > 0)
-        text += fmt::format(", within {}x{}+{}+{}, {:.3g} % of them antialiasing", d.box.width(), d.box.height(),
-                            d.box.left, d.box.top,
-                            100.0 * static_cast<double>(d.antialiased) / static_cast<double>(d.changed));
+        text += fmt::format(", within {}x{}+{}+{}", d.box.width(), d.box.height(), d.box.left, d.box.top);
     return text + fmt::format(", SSIM {:.6f} (lowest window {:.4f})", d.ssim, d.lowest_ssim);
 }
 

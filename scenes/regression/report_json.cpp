@@ -26,7 +26,6 @@ Node picture(const PictureComparison& p) {
     add(out, "share", d.share());
     add(out, "largest", d.largest);
     add(out, "box", box(d.box));
-    add(out, "antialiased", d.antialiased);
     add(out, "ssim", d.ssim);
     add(out, "lowest_ssim", d.lowest_ssim);
     return out;

@@ -58,7 +58,7 @@ struct Pane {
 constexpr Pane kActual = {"actual", "the picture of this test"};
 constexpr Pane kExpected = {"expected", "the reference picture"};
 constexpr Pane kBlink = {"blink", "expected and actual picture in turn"};
-constexpr Pane kDifference = {"difference", "changed pixels vermilion, antialiasing yellow, a blue frame around them"};
+constexpr Pane kDifference = {"difference", "changed pixels vermilion, a blue frame around them"};
 
 std::string image(const std::string& entry, long frame, const char* kind) {
     return fmt::format("<img alt=\"{}\" src=\"{}\">", kind, report_picture(entry, frame, kind).string());
