@@ -25,8 +25,8 @@ std::string mistake_in_bracket(std::string_view text, char c, Expected expected,
     if (!opening) return fmt::format("an unmatched '{}'; remove it", c);
     const char bracket = text[*opening];
     if (c != closing_bracket(bracket))
-        return fmt::format("'{}' closes what '{}' in line {} opened; write '{}'", c, bracket, line_of(text, *opening),
-                           closing_bracket(bracket));
+        return fmt::format("'{}' closes what '{}' in line {} opened; write '{}'", c, bracket,
+                           locate(text, *opening).line, closing_bracket(bracket));
     return expected == Expected::separator ? fmt::format("'{}' does not belong here; remove it", c)
                                            : "a value is missing before this; write it, or remove the key";
 }
@@ -72,10 +72,6 @@ std::size_t after_string(std::string_view text, std::size_t at) {
     for (++at; at < text.size() && text[at] != '"' && text[at] != '\n'; ++at)
         if (text[at] == '\\') ++at;
     return std::min(at + 1, text.size());
-}
-
-std::size_t line_of(std::string_view text, std::size_t offset) {
-    return 1 + static_cast<std::size_t>(std::ranges::count(text.substr(0, offset), '\n'));
 }
 
 std::string mistake_in_word(std::string_view word) {

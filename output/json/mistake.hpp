@@ -22,6 +22,5 @@ std::string_view first_word(std::string_view text);
 std::size_t after_blanks(std::string_view text, std::size_t at);
 // Returns the place after the quote that closes the text which begins at `at`, or after the end of the line.
 std::size_t after_string(std::string_view text, std::size_t at);
-std::size_t line_of(std::string_view text, std::size_t offset);  // from 1; reads the text up to there
 
 }  // namespace beamcam

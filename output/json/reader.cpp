@@ -171,7 +171,7 @@ class TreeBuilder {
     void report_duplicate(const std::string& key, std::size_t first) {
         const bool shown = result_.messages.size() < kMostDescribed;  // to find the line of each takes quadratic time
         report(fmt::format("duplicate key {}{}; remove one of them", in_quotes(key),
-                           shown ? fmt::format(", first in line {}", line_of(text_, first)) : ""));
+                           shown ? fmt::format(", first in line {}", locate(text_, first).line) : ""));
     }
 
     bool fail(std::size_t at, std::string text) {

@@ -137,10 +137,6 @@ void adopt_unit(std::string_view text, const Dimension& dimension, render::Units
 }
 
 void check_picture(ObjectReader& r, Picture& picture) {
-    if (const double memory = memory_of(picture); memory >= kMuchMemory)
-        r.diagnostics().warning(r.node()->place,
-                                fmt::format("{} of {} × {} pixels needs about {:.2g} GB of memory for each thread",
-                                            r.object_name(), picture.size.width, picture.size.height, memory / 1e9));
     if (const auto paper = picture.view.paper;
         paper && render::contrast(render::palette(picture.view.theme).ink, render::rgb(*paper)) < 3)
         r.warn("background", " makes the text hardly readable; choose another \"theme\"");

@@ -6,7 +6,7 @@
 
 namespace beamcam::scenes {
 
-SweepTable::SweepTable(const output::ColumnTable& table) : table_(table), t_(column("t")), kinds_(column("class")) {
+SweepTable::SweepTable(const output::ColumnTable& table) : table_(table), kinds_(column("class")) {
     const std::vector<double>& sample = column("sample");
     for (std::size_t row = 0; row < sample.size(); ++row) {
         if (points_.empty() || !(sample[row] > 0)) points_.push_back({row, row});

@@ -33,7 +33,6 @@ class SweepTable {
     SweepColumn samples(const PointRows& point, std::size_t value) const {
         return columns_[value].subspan(point.begin, point.size());
     }
-    SweepColumn times(const PointRows& point) const { return t_.subspan(point.begin, point.size()); }
     sim::AttractorClass kind(const PointRows& point) const {
         return static_cast<sim::AttractorClass>(int(kinds_[point.begin]));
     }
@@ -45,7 +44,7 @@ class SweepTable {
     const std::vector<double>& column(const std::string& name) const;
 
     const output::ColumnTable& table_;
-    const SweepColumn t_, kinds_;
+    const SweepColumn kinds_;
     std::vector<PointRows> points_;
     std::vector<std::string> axes_, values_;
     std::vector<SweepColumn> columns_;  // of the values

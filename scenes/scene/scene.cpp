@@ -49,20 +49,6 @@ std::string metadata_json(const Scene& scene) {
     return to_json(distinct ? here : scene);
 }
 
-double memory_of(const Picture& picture) {
-    // Bytes per pixel, measured at 8192 × 8192 pixels: three layers and the rows of a PNG, and the buffers of OpenGL.
-    const double pixels = double(picture.size.width) * picture.size.height;
-    switch (picture.view.style) {
-        case render::Style::flat:
-            return 16 * pixels;
-        case render::Style::lit:
-            return 28 * pixels;
-        case render::Style::solid:
-            return 60 * pixels;
-    }
-    return 0;
-}
-
 const PictureOutput* picture_of(const Output& output, PictureOutput::Kind kind) {
     const auto* picture = std::get_if<PictureOutput>(&output);
     return picture && picture->kind == kind ? picture : nullptr;

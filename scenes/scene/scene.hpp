@@ -11,10 +11,6 @@
 
 namespace beamcam::scenes {
 
-// Estimated memory of a drawing thread [bytes], and the value above which a warning is printed.
-double memory_of(const Picture& picture);
-constexpr double kMuchMemory = 1e9;
-
 const std::string& file_of(const Output& output);
 std::string poster_file(const PictureOutput& video);        // "fall.png" beside "fall.mp4"; empty: none
 std::vector<std::string> written_by(const Output& output);  // its file and its secondary files

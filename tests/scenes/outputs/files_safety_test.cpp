@@ -124,19 +124,6 @@ TEST(FileSafety, AMissingSceneCostsNoOther) {
     EXPECT_TRUE(fs::exists(folder / "b-summary.json"));
 }
 
-TEST(FileSafety, PicturesOfAGigabyteAreAnnounced) {
-    const Folder folder;
-    const auto still = [&](int pixels) {
-        folder.write("s.json", R"({"outputs": [{"type": "still", "at": 0, "file": "s.png", "size": [)" +
-                                   std::to_string(pixels) + ", " + std::to_string(pixels) +
-                                   R"(], "view": {"style": "flat"}}]})");
-        return shell(folder, "$BEAMCAM check s.json");
-    };
-    const Finished huge = still(16384), usual = still(1024);
-    EXPECT_THAT(huge.err, HasSubstr("GB of memory"));
-    EXPECT_THAT(usual.out + usual.err, ::testing::Not(HasSubstr("of memory")));
-}
-
 // Runs the command as a user who may have so many processes and threads.
 Finished with_threads(const Folder& folder, int most, const std::string& command) {
     return shell(folder, "chmod 777 .; as='prlimit --nproc=" + std::to_string(most) +
