@@ -61,6 +61,9 @@ constexpr Absent kAbsent[] = {
     {WordKind::key, "trace tip_path swing shutter exposures view.strobe palette logo",
      "it was withdrawn; \"theme\" and \"background\" remain, and the figure \"strobe\" draws several instants"},
 
+    {WordKind::key, "wrap sign zero",
+     "it was withdrawn: angles that begin again after a turn are joined; convert other columns before, and name the "
+     "file that has the channel itself"},
     {WordKind::key, "friction.damping", "the dashpot of the bristle was withdrawn; remove the key"},
     {WordKind::key, "accepted reproducible_until renderers",
      "it was withdrawn: references are plain files, which beamcam test BASELINES --update writes; remove the key"},

@@ -38,9 +38,8 @@ FileColumn read_file_column(const std::filesystem::path& file, const std::string
                             table.row_name(static_cast<std::size_t>(empty - out.values.begin())), in_quotes(column))};
         std::erase_if(out.values, [](double value) { return std::isnan(value); });
         const std::string& stated = unit.empty() ? table.column(column)->unit : unit;
-        const QuantityText given = parse_quantity("1 " + stated);
-        if (!stated.empty() && given.quantity && same(given.quantity->dimension, dimension))
-            for (double& value : out.values) value *= given.quantity->value;
+        if (const auto factor = stated.empty() ? std::nullopt : factor_between(stated, si_unit(dimension)))
+            for (double& value : out.values) value *= *factor;
         else if (!unit.empty())
             out.problem = fmt::format("{} is not a unit of the column {}, which is measured in {}", in_quotes(unit),
                                       in_quotes(column), si_unit(dimension));

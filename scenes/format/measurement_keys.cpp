@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "scenes/format/measurement_reader.hpp"
-#include "scenes/format/units.hpp"
 
 namespace beamcam::scenes {
 
@@ -32,43 +31,6 @@ void SceneVisitor::file_of_columns() {
           "Units of columns, by their names: {\"x\": \"mm\"}; by default those that the file states, or SI units.");
 }
 
-namespace {
-
-// A number, or a text with a unit, for each column: {"angle": -1}; `for_all`: or one for all columns.
-ValueFormat column_numbers_format(std::vector<ColumnNumber>& numbers, bool for_all) {
-    const auto add_number = [&numbers](ObjectReader& r, const Node& node, const std::string& key,
-                                       const std::string& column) {
-        if (node.kind == Node::Kind::number) return numbers.push_back({column, node.number});
-        if (node.kind != Node::Kind::string) return r.expect(node, key, "a number or a text with a unit");
-        const QuantityText read = parse_quantity(node.text);
-        if (read.quantity)
-            numbers.push_back({column, read.quantity->value, read.quantity->dimension});
-        else
-            r.reject_value(node, key, ": {}", read.problem);
-    };
-    const auto read = [add_number, for_all](ObjectReader& r, const Node& node, const std::string& key) {
-        if (node.kind == Node::Kind::object)
-            for (const Member& member : node.members) add_number(r, member.value, key + "." + member.key, member.key);
-        else if (for_all)
-            add_number(r, node, key, "");
-        else
-            r.expect(node, key, "an object such as {{\"angle\": -1}}");
-    };
-    const auto write = [&numbers] {
-        if (numbers.empty()) return Node();
-        if (numbers.front().column.empty()) return Node(numbers.front().value);
-        Node out = object_node();
-        for (const ColumnNumber& each : numbers) add(out, each.column, each.value);
-        return out;
-    };
-    const std::string one = R"("type": ["number", "string"])",
-                      object = R"("type": "object", "additionalProperties": {)" + one + "}";
-    return {for_all ? "quantity, or object of quantities" : "object of quantities",
-            for_all ? R"({"anyOf": [{)" + one + "}, {" + object + "}]}" : "{" + object + "}", read, write};
-}
-
-}  // namespace
-
 void visit(SceneVisitor& v, Measurement& m) {
     using Drawn = Measurement::Drawn;
     v.text(sim::required("file", "\"rig.csv\""), m.file,
@@ -81,14 +43,6 @@ void visit(SceneVisitor& v, Measurement& m) {
     v.value("units", column_units_format(m.units),
             "Units of columns, by their names: {\"angle\": \"deg\", \"time\": \"ms\"}; by default those that the file "
             "states, or SI units.");
-    v.value(
-        "wrap", column_numbers_format(m.wraps, true),
-        "After how much an angle begins again, as those of absolute encoders: \"360 deg\" for all angles, or "
-        "{\"angle\": \"360 deg\"}; 0: never. By default angles within a turn that jump by more than half a turn do.");
-    v.value("sign", column_numbers_format(m.signs, false), "1 or -1 by column: {\"angle\": -1} turns the other way.");
-    v.value("zero", column_numbers_format(m.zeros, false),
-            "Value of a column at the zero of its channel: {\"angle\": \"12.5 deg\"}. The channel is sign * (value - "
-            "zero).");
     v.choice("draw", m.drawn, {{Drawn::automatic, "auto"}, {Drawn::points, "points"}, {Drawn::line, "line"}},
              "How the data are drawn; auto: points up to 300 rows, else a line.");
     for (const auto& [known, channel] : measurable_channels()) {

@@ -76,9 +76,6 @@ class MeasurementReader {
                                       suggestion_or_list(column, table_.names())));
         };
         for (const auto& [column, unit] : m_.units) check("units", column);
-        for (const auto& [key, all] :
-             {std::pair{"wrap", &m_.wraps}, std::pair{"sign", &m_.signs}, std::pair{"zero", &m_.zeros}})
-            for (const ColumnNumber& each : *all) check(key, each.column);
         for (const auto& [channel, from] : m_.columns)
             if (sim::traits(channel.kind).needs_cam && !r_.context().scene.problem.cam)
                 fail(r_.has(name(channel)) ? name(channel) : "file",
@@ -93,7 +90,7 @@ class MeasurementReader {
             if (!failed_ && values.size() != m_.times.size())
                 fail("file", fmt::format("the column {} has {} rows, but the time has {}", in_quotes(from),
                                          values.size(), m_.times.size()));
-            if (!failed_) adjust(channel, from, values);
+            if (!failed_ && si_unit_of(channel) == "rad") join_turns(channel, from, values);
             m_.values.push_back(std::move(values));
         }
         if (!failed_) leave_out_rows_without_time();
@@ -126,68 +123,32 @@ class MeasurementReader {
         const bool by_scene = named != m_.units.end();
         const std::string unit = by_scene ? named->second : column.unit;
         if (unit.empty()) return 1;
-        const QuantityText given = parse_quantity("1 " + unit), required = parse_quantity("1 " + si);
-        const bool fits =
-            given.quantity && required.quantity && same(given.quantity->dimension, required.quantity->dimension);
-        if (!fits && by_scene)
-            fail("units", fmt::format("{} is not a unit of {}, which is measured in {}{}", in_quotes(unit), key, si,
-                                      given.quantity ? "" : ": " + given.problem));
-        if (!fits && !by_scene)
+        const std::optional<double> factor = factor_between(unit, si);
+        if (!factor && by_scene)
+            fail("units", fmt::format("{} is not a unit of {}, which is measured in {}", in_quotes(unit), key, si));
+        if (!factor && !by_scene)
             r_.warn("file",
                     ": the file states {} for the column {}, which is not a unit of {}; it is read in {} unless "
                     "\"units\" names another",
                     in_quotes(unit), in_quotes(column.name), key, si.empty() ? "plain numbers" : si);
-        if (fits && !by_scene)
+        if (factor && !by_scene)
             m_.notes.push_back(fmt::format("{}: the column {} is in {}", m_.file, in_quotes(column.name), unit));
-        return fits ? given.quantity->value : 1;
+        return factor.value_or(1);
     }
 
-    // ---- wrap, sign and zero -------------------------------------------------------------------
-
-    const ColumnNumber* number_for(const std::vector<ColumnNumber>& all, const std::string& column) const {
-        const auto found = std::ranges::find(all, column, &ColumnNumber::column);
-        return found == all.end() ? nullptr : &*found;
-    }
-    double number_for(const char* key, const std::vector<ColumnNumber>& all, const std::string& column,
-                      const std::string& si, double otherwise) {
-        const ColumnNumber* found = number_for(all, column);
-        if (!found) return otherwise;
-        const QuantityText required = parse_quantity("1 " + si);
-        if (found->dimension && required.quantity && !same(*found->dimension, required.quantity->dimension))
-            fail(key, fmt::format("the number for {} must be in {}", in_quotes(column), si.empty() ? "no unit" : si));
-        return found->value;
-    }
-
-    void adjust(const sim::Channel& channel, const std::string& from, std::vector<double>& values) {
-        const std::string si = si_unit_of(channel);
-        const double sign = number_for("sign", m_.signs, from, "", 1), zero = number_for("zero", m_.zeros, from, si, 0);
-        if (sign != 1 && sign != -1) fail("sign", fmt::format("the sign of {} must be 1 or -1", in_quotes(from)));
-        const double turn = si == "rad" ? turn_of(channel, from, values) : 0;
-        if (failed_) return;
-        if (turn > 0) unwrap(values, turn);
-        for (double& value : values) value = sign * (value - zero);
-        if (turn > 0) start_near_motion(channel, turn, values);
-    }
-
-    // After how much the column begins again; 0: it does not.
-    double turn_of(const sim::Channel& channel, const std::string& from, const std::vector<double>& values) {
-        const bool own = number_for(m_.wraps, from) != nullptr;
-        if (own || number_for(m_.wraps, "")) {
-            const double turn = number_for("wrap", m_.wraps, own ? from : "", "rad", 0);
-            if (!(turn >= 0)) fail("wrap", "must not be negative");
-            return turn;
-        }
-        const auto jump = first_wrap(values, kFullTurn);
-        if (!jump) return 0;
+    // An angle that begins again after a turn, as that of an absolute encoder, goes on instead.
+    void join_turns(const sim::Channel& channel, const std::string& from, std::vector<double>& values) {
+        const auto jump = first_wrap(values);
+        if (!jump) return;
         r_.warn(r_.has(name(channel)) ? name(channel) : "file",
-                ": the column {} jumps by {:.4g} deg in {}; it is read as an angle that begins again after 360 deg; "
-                "\"wrap\": \"360 deg\" says so, \"wrap\": 0 keeps the jumps",
+                ": the column {} jumps by {:.4g} deg in {}; it is read as an angle that begins again after 360 deg",
                 in_quotes(from), (values[*jump] - values[*jump - 1]) * 360 / kFullTurn, table_.row_name(*jump));
-        return kFullTurn;
+        unwrap(values);
+        start_near_motion(channel, values);
     }
 
     // An angle within a turn leaves whole turns open: its first row is within half a turn of the motion's.
-    void start_near_motion(const sim::Channel& channel, double turn, std::vector<double>& values) const {
+    void start_near_motion(const sim::Channel& channel, std::vector<double>& values) const {
         const sim::Problem& problem = r_.context().scene.problem;
         for (std::size_t i = 0; i < values.size(); ++i) {
             if (!std::isfinite(values[i]) || !std::isfinite(m_.times[i])) continue;
@@ -196,7 +157,7 @@ class MeasurementReader {
                 there = problem.cam->phase - problem.cam->speed * m_.times[i];
             if (channel.kind == sim::ChannelKind::theta) there = hub_angle(problem, m_.times[i]);
             if (!there) return;
-            const double turns = turn * std::round((*there - values[i]) / turn);
+            const double turns = kFullTurn * std::round((*there - values[i]) / kFullTurn);
             for (double& value : values) value += turns;
             return;
         }

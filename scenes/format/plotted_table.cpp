@@ -27,13 +27,9 @@ PlottedTable::Column column_of(ObjectReader& r, const output::TableColumn& from,
     PlottedTable::Column column{.name = from.name, .unit = from.unit, .values = from.values};
     if (column.unit.empty()) column.unit = unit_by_name(from.name, r.context().scene.problem), column.prefixed = true;
     if (shown.empty()) return column;
-    const QuantityText own = parse_quantity("1 " + column.unit), wanted = parse_quantity("1 " + shown);
-    if (!column.unit.empty()) {
-        if (!own.quantity || !wanted.quantity || !same(own.quantity->dimension, wanted.quantity->dimension))
-            r.reject(key, " = {}: the column {} is in {}", in_quotes(shown), in_quotes(from.name), column.unit);
-        else
-            for (double& value : column.values) value *= own.quantity->value / wanted.quantity->value;
-    }
+    const auto factor = column.unit.empty() ? std::optional(1.0) : factor_between(column.unit, shown);
+    if (!factor) r.reject(key, " = {}: the column {} is in {}", in_quotes(shown), in_quotes(from.name), column.unit);
+    for (double& value : column.values) value *= factor.value_or(1);
     column.unit = shown, column.prefixed = false;
     return column;
 }

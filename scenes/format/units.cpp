@@ -3,14 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <vector>
 
-#include "output/json/source.hpp"
+#include "output/files/numbers.hpp"
+#include "output/json/tree.hpp"
 #include "scenes/format/absent.hpp"
 #include "scenes/format/suggest.hpp"
 
@@ -124,154 +124,65 @@ double scaled_number(std::string_view digits, double value, const Scaled& scale)
     return value * scale.value;
 }
 
-// Recursive descent over   unit = factor { [ "*" | "·" | "/" ] factor },  factor = ( symbol | "(" unit ")" ) [ exponent
-// ].
-class UnitParser {
-  public:
-    UnitParser(std::string_view text, const Dimension* expected) : rest_(text), expected_(expected) {}
+constexpr double kLargestExponent = 12;
 
-    // nullopt if the text is not a unit; `problem` has the reason.
-    std::optional<Scaled> parse() {
-        Scaled q;
-        if (!product(q)) return std::nullopt;
-        skip_spaces();
-        if (rest_.empty()) return q;
-        reject(fmt::format("unexpected {} after the unit", in_quotes(rest_)));
-        return std::nullopt;
-    }
-    const std::string& problem() const { return problem_; }
+// Other spellings of operators and exponents, as in copied texts: "mm²", "kg·m⁻³".
+constexpr std::pair<const char*, const char*> kSpellings[] = {{"·", "*"}, {"⋅", "*"}, {"**", "^"}, {"⁻", "-"},
+                                                              {"¹", "1"}, {"²", "2"}, {"³", "3"},  {"⁴", "4"}};
 
-  private:
-    bool reject(std::string problem) {
-        if (problem_.empty()) problem_ = std::move(problem);
-        return false;
-    }
-    void skip_spaces() {
-        while (rest_.starts_with(' ')) rest_.remove_prefix(1);
-    }
-    bool take(std::string_view token) {
-        if (!rest_.starts_with(token)) return false;
-        rest_.remove_prefix(token.size());
-        return true;
-    }
-
-    bool product(Scaled& q) {
-        if (depth_ > 8) return reject("the unit has too many parentheses");
-        if (!factor(q, 1)) return false;
-        bool divided = false;
-        while (true) {
-            skip_spaces();
-            if (rest_.empty() || rest_.front() == ')') return true;
-            const bool divides = take("/");
-            const bool dot = !divides && (take("*") || take("·") || take("⋅"));
-            if (divided && !divides && !dot)
-                return reject("a space after a division is ambiguous; write \"*\", \"/\" or parentheses");
-            divided = divided || divides;
-            skip_spaces();
-            if (!factor(q, divides ? -1 : 1)) return false;
-        }
-    }
-
-    bool factor(Scaled& q, double sign) {
-        Scaled base;
-        if (take("(")) {
-            ++depth_;
-            if (!product(base)) return false;
-            --depth_;
-            skip_spaces();
-            if (!take(")")) return reject("a \")\" is missing in the unit");
-        } else if (take("1")) {  // "1/s"
-        } else if (!symbol(base)) {
-            return false;
-        }
-        double power = 1;
-        if (!exponent(power)) return false;
-        multiply(q, base, sign * power);
-        return true;
-    }
-
-    bool symbol(Scaled& q) {
-        std::size_t n = 0;
-        while (n < rest_.size()) {
-            const char c = rest_[n];
-            const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '%';
-            if (letter) {
-                ++n;
-            } else if (rest_.substr(n).starts_with("°") || rest_.substr(n).starts_with("µ") ||
-                       rest_.substr(n).starts_with("μ")) {
-                n += 2;
-            } else {
-                break;
-            }
-        }
-        const std::string_view text = rest_.substr(0, n);
-        if (text.empty())
-            return reject(rest_.empty() ? "the unit ends too early"
-                                        : fmt::format("{} is not a unit", in_quotes(rest_)));
-        const auto found = named(text);
-        if (!found) {
-            const std::string remedy = absent_unit(text);
-            return reject(fmt::format("unknown unit {}{}", in_quotes(text),
-                                      remedy.empty() ? suggestion(text, symbols_of(expected_)) : remedy));
-        }
-        q = *found;
-        rest_.remove_prefix(n);
-        return true;
-    }
-
-    // "^1.5", "^(3/2)", "²", "⁻¹", or digits right behind the symbol: "m2", "s-1".
-    bool exponent(double& power) {
-        if (take("^") || take("**")) {
-            const bool parenthesis = take("(");
-            if (!number(power)) return reject("a number is missing after \"^\" in the unit");
-            double below = 1;
-            if (parenthesis && take("/")) {
-                if (!number(below) || below == 0) return reject("a number is missing after \"/\" in the exponent");
-            }
-            if (parenthesis && !take(")")) return reject("a \")\" is missing in the exponent of the unit");
-            power /= below;
-            return true;
-        }
-        if (!rest_.empty() && (is_digit(rest_[0]) || (rest_.size() > 1 && rest_[0] == '-' && is_digit(rest_[1]))))
-            return number(power);
-        return superscript(power);
-    }
-
-    static bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-    bool number(double& value) {
-        const auto [end, error] =
-            std::from_chars(rest_.data(), rest_.data() + rest_.size(), value, std::chars_format::fixed);
-        if (error == std::errc::invalid_argument) return false;
-        if (error != std::errc{} || !(std::abs(value) <= kLargestExponent)) return too_large();
-        rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
-        return true;
-    }
-
-    bool superscript(double& power) {
-        static constexpr std::array<std::string_view, 10> kDigits = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-        const bool minus = take("⁻");
-        double value = 0;
-        int count = 0;
-        for (; count < 3; ++count) {
-            const auto digit = std::ranges::find_if(kDigits, [&](auto each) { return take(each); });
-            if (digit == kDigits.end()) break;
-            value = 10 * value + static_cast<double>(digit - kDigits.begin());
-        }
-        if (count == 0) return !minus || reject("a number is missing after \"⁻\" in the unit");
-        if (value > kLargestExponent) return too_large();
-        power = minus ? -value : value;
-        return true;
-    }
-
-    bool too_large() { return reject(fmt::format("an exponent in the unit is beyond ±{:g}", kLargestExponent)); }
-
-    static constexpr double kLargestExponent = 12;
-    std::string_view rest_;
-    const Dimension* expected_;  // of the units that messages suggest
-    std::string problem_;
-    int depth_ = 0;
+// A unit, or the reason why the text is none.
+struct UnitText {
+    std::optional<Scaled> unit;
+    std::string problem;
 };
+UnitText no_unit(std::string problem) { return {std::nullopt, std::move(problem)}; }
+
+// A symbol with its exponent: "N", "m^1.5", "s-1"; or "1", as in "1/s".
+UnitText factor_in(std::string_view text, const Dimension* expected) {
+    if (text.empty()) return no_unit("the unit ends too early");
+    if (text == "1") return {Scaled{}, {}};
+    const std::size_t end = std::min(text.find_first_of("^+-.0123456789"), text.size());
+    const std::string_view symbol = text.substr(0, end);
+    std::string_view exponent = text.substr(end);
+    if (symbol.empty()) return no_unit(fmt::format("{} is not a unit", in_quotes(text)));
+    const auto base = named(symbol);
+    if (!base) {
+        const std::string remedy = absent_unit(symbol);
+        return no_unit(fmt::format("unknown unit {}{}", in_quotes(symbol),
+                                   remedy.empty() ? suggestion(symbol, symbols_of(expected)) : remedy));
+    }
+    Scaled factor;
+    if (exponent.empty()) return {base, {}};
+    if (exponent.starts_with('^')) exponent.remove_prefix(1);
+    const auto power = output::number_in<double>(exponent);
+    if (!power) return no_unit(fmt::format("{}: a number is missing in the exponent of the unit", in_quotes(text)));
+    if (!(std::abs(*power) <= kLargestExponent))
+        return no_unit(fmt::format("an exponent in the unit is beyond ±{:g}", kLargestExponent));
+    multiply(factor, *base, *power);
+    return {factor, {}};
+}
+
+// unit = factor { ( "*" | "/" | " " ) factor }
+UnitText unit_in(std::string text, const Dimension* expected) {
+    for (const auto& [other, usual] : kSpellings) replace_all(text, other, usual);
+    Scaled product;
+    std::string_view rest = text;
+    for (bool divides = false, divided = false;;) {
+        const std::size_t end = std::min(rest.find_first_of(" */"), rest.size());
+        const UnitText factor = factor_in(rest.substr(0, end), expected);
+        if (!factor.unit) return factor;
+        multiply(product, *factor.unit, divides ? -1 : 1);
+        rest.remove_prefix(end);
+        if (rest.empty()) return {product, {}};
+        const std::string_view gap = rest.substr(0, rest.find_first_not_of(" */"));
+        const auto signs = gap.size() - static_cast<std::size_t>(std::ranges::count(gap, ' '));
+        if (signs > 1) return no_unit(fmt::format("{} stands where one sign belongs in the unit", in_quotes(gap)));
+        divides = gap.find('/') != std::string_view::npos;
+        if (divided && signs == 0) return no_unit("a space after a division is ambiguous; write \"*\" or \"/\"");
+        divided = divided || divides;
+        rest.remove_prefix(gap.size());
+    }
+}
 
 }  // namespace
 
@@ -290,13 +201,18 @@ QuantityText parse_quantity(std::string_view text, const Dimension* expected) {
     std::string_view unit(end, static_cast<std::size_t>(digits.data() + digits.size() - end));
     while (unit.starts_with(' ')) unit.remove_prefix(1);
     if (unit.empty()) return {Quantity{value, {}}, {}};
-    UnitParser parser(unit, expected);
-    const auto scale = parser.parse();
-    if (!scale) return {std::nullopt, parser.problem()};
+    const UnitText scale = unit_in(std::string(unit), expected);
+    if (!scale.unit) return {std::nullopt, scale.problem};
     const std::string_view number(digits.data(), static_cast<std::size_t>(end - digits.data()));
-    const Quantity quantity{scaled_number(number, value, *scale), scale->dimension};
+    const Quantity quantity{scaled_number(number, value, *scale.unit), scale.unit->dimension};
     if (!std::isfinite(quantity.value)) return {std::nullopt, "the value is out of the range of a double"};
     return {quantity, {}};
+}
+
+std::optional<double> factor_between(std::string_view unit, std::string_view other) {
+    const auto of = [](std::string_view one) { return parse_quantity(fmt::format("1 {}", one)).quantity; };
+    const auto from = of(unit), to = of(other);
+    return from && to && same(from->dimension, to->dimension) ? std::optional(from->value / to->value) : std::nullopt;
 }
 
 }  // namespace beamcam::scenes

@@ -26,5 +26,7 @@ struct QuantityText {
 };
 // `expected`: the dimension of the units that messages suggest; null: any.
 QuantityText parse_quantity(std::string_view text, const Dimension* expected = nullptr);
+// The factor from a unit to another one of the same dimension; nothing: they are not.
+std::optional<double> factor_between(std::string_view unit, std::string_view other);
 
 }  // namespace beamcam::scenes

@@ -8,16 +8,8 @@
 
 #include "output/data/agreement.hpp"
 #include "sim/observe/request.hpp"
-#include "sim/problem/dimension.hpp"
 
 namespace beamcam::scenes {
-
-// A number for a column of a file. `dimension`: of its unit; absent for a plain number, which is in SI units.
-struct ColumnNumber {
-    std::string column;
-    double value = 0;
-    std::optional<sim::Dimension> dimension = {};
-};
 
 struct Measurement {
     enum class Drawn { automatic, points, line };
@@ -26,11 +18,7 @@ struct Measurement {
     std::string time_column = "t";
     std::vector<std::pair<sim::Channel, std::string>> columns;  // names in the file
     std::vector<std::pair<std::string, std::string>> units;     // of columns: "deg"; default: those of the file, or SI
-    // Sign and zero of each column, in SI units: the channel is sign · (value − zero), after angles that wrap were
-    // joined at their jumps. `wraps`: after how much an angle begins again; 0: it does not. The name "" means all
-    // columns with angles.
-    std::vector<ColumnNumber> wraps, signs, zeros;
-    double offset = 0;  // time of the motion at time 0 of the file [s]
+    double offset = 0;                                          // time of the motion at time 0 of the file [s]
     Drawn drawn = Drawn::automatic;
 
     // Content of the file in SI units and the motion's time; `values` in the order of `columns`.

@@ -49,7 +49,6 @@ TEST(MeasuredAngles, ThatWrapAreJoinedWithAMessage) {
     const Judged wrapped = judged(encoder(within_turn));
     EXPECT_LT(wrapped.rms, 1e-4);
     EXPECT_THAT(wrapped.messages, HasSubstr("the column \"deg\" jumps by 3"));
-    EXPECT_THAT(wrapped.messages, HasSubstr("\"wrap\": \"360 deg\""));
     const Judged centred = judged(encoder([](double angle) { return within_turn(angle + 180) - 180; }));
     EXPECT_LT(centred.rms, 1e-4);
     // The cam begins at another angle, which the encoder gives within a turn.
@@ -58,35 +57,6 @@ TEST(MeasuredAngles, ThatWrapAreJoinedWithAMessage) {
     const Judged whole = judged(encoder([](double angle) { return angle; }));
     EXPECT_LT(whole.rms, 1e-4);
     EXPECT_THAT(whole.messages, Not(HasSubstr("jumps")));
-}
-
-TEST(MeasuredAngles, WrapAsTheSceneSays) {
-    for (const char* keys : {R"(, "wrap": "360 deg")", R"(, "wrap": {"deg": "360 deg"})", R"(, "wrap": "1 rev")"}) {
-        const Judged wrapped = judged(encoder(within_turn), "", keys);
-        EXPECT_LT(wrapped.rms, 1e-4) << keys;
-        EXPECT_THAT(wrapped.messages, Not(HasSubstr("jumps"))) << keys;
-    }
-    EXPECT_GT(judged(encoder(within_turn), "", R"(, "wrap": 0)").rms, 1);
-    // A resolver of two pole pairs begins again after half a turn, which is not recognized.
-    const auto resolver = [](double angle) { return within_turn(2 * angle) / 2; };
-    EXPECT_LT(judged(encoder(resolver), "", R"(, "wrap": "180 deg")").rms, 1e-4);
-}
-
-TEST(MeasuredAngles, HaveASignAndAZero) {
-    const auto mounted = [](double angle) { return within_turn(30 - angle); };
-    EXPECT_LT(judged(encoder(mounted), "", R"(, "sign": {"deg": -1}, "zero": {"deg": "30 deg"})").rms, 1e-4);
-    const Folder folder;
-    folder.write("enc.csv", encoder(mounted));
-    for (const auto& [keys, words] :
-         {std::pair{R"(, "sign": {"deg": 2})", "must be 1 or -1"}, std::pair{R"(, "sign": -1)", "an object such as"},
-          std::pair{R"(, "zero": {"deg": "3 mm"})", "must be in rad"},
-          std::pair{R"(, "zero": {"dge": 1})", "no column \"dge\"; did you mean \"deg\""},
-          std::pair{R"(, "wrap": "-360 deg")", "must not be negative"}, std::pair{R"(, "wrap": "360 dge")", "wrap"}}) {
-        folder.write("s.json", fmt::format(kRotating, "", keys));
-        const Finished checked = shell(folder, "$BEAMCAM check s.json");
-        EXPECT_EQ(checked.code, 3) << keys;
-        EXPECT_THAT(checked.out + checked.err, HasSubstr(words)) << keys;
-    }
 }
 
 // A pendulum that swings through half a turn between two rows is not a wrap: its values span more than a turn.
