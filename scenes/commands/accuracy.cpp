@@ -136,24 +136,24 @@ int act(const AccuracyArguments& args) {
 
 }  // namespace
 
-void add_accuracy(Grammar& grammar) {
-    const auto [app, args] = grammar.command<AccuracyArguments>(
-        "accuracy", "Compute the error budget of a scene, and error against run time", act);
-    app.examples = {"accuracy fall.json --until 0.3 --repeats 1 --target 1e-5 -o budget.pdf",
-                    "accuracy fall.json --of contact_force"};
+void add_accuracy(Program& program) {
+    const auto [app, args] = add_command<AccuracyArguments>(
+        program, "accuracy", "Compute the error budget of a scene, and error against run time", act);
+    add_examples(app, {"accuracy fall.json --until 0.3 --repeats 1 --target 1e-5 -o budget.pdf",
+                       "accuracy fall.json --of contact_force"});
     add_scene(app, args.scene, args.common);
     add_result_options(app, args.files, args.common,
                        "Write the result, too: .json, or the diagram as .png, .svg or .pdf (repeatable)");
-    app.option("--until", &args.until, "T", "Assess the motion up to this time (default: the end of the scene)");
-    app.option(
-        "--target", &args.target, "ANGLE",
+    add_option(app, "--until", args.until, "T", "Assess the motion up to this time (default: the end of the scene)");
+    add_option(
+        app, "--target", args.target, "ANGLE",
         "Error for which settings are recommended: of theta; of a driven hub, of the tip deflection over the length "
         "(default: 1e-4 rad)");
-    app.option("--of", &args.of, "CHANNEL",
+    add_option(app, "--of", args.of, "CHANNEL",
                "Assess the largest value of this channel instead, such as contact_force or stress_max: its change with "
                "modes, model, tolerance and contact");
-    app.option("--repeats", &args.request.repeats, "N", "Timings of each row (default: 5)").range(1, 1000);
-    app.option("--longest", &args.longest, "T", "Leave out runs that take longer than this (default: 2 s)");
+    within(add_option(app, "--repeats", args.request.repeats, "N", "Timings of each row (default: 5)"), 1, 1000);
+    add_option(app, "--longest", args.longest, "T", "Leave out runs that take longer than this (default: 2 s)");
 }
 
 }  // namespace beamcam::scenes

@@ -117,21 +117,23 @@ int act(const CamArguments& args) {
 
 }  // namespace
 
-void add_cam(Grammar& grammar) {
-    const auto [app, args] = grammar.command<CamArguments>(
-        "cam", "Print base circle, curvature, pressure angle and jump speed of the cam; write its outline", act);
-    app.examples = {"cam valve-lever.json", "cam valve-lever.json --json -o cam.csv -o cam.pdf"};
-    app.footer =
+void add_cam(Program& program) {
+    const auto [app, args] = add_command<CamArguments>(
+        program, "cam", "Print base circle, curvature, pressure angle and jump speed of the cam; write its outline",
+        act);
+    add_examples(app, {"cam valve-lever.json", "cam valve-lever.json --json -o cam.csv -o cam.pdf"});
+    add_note(
+        app,
         "The jump speed is that of a straight rigid lever with the beam's inertia, pressed by gravity, the hub's "
         "spring "
         "and a constant torque. In JSON lengths are in m, angles in rad, speeds in rad/s; without a jump its values "
-        "are null.";
+        "are null.");
     add_scene(app, args.scene, args.common);
-    app.option(
-        "-o,--output", &args.files, "FILE",
+    add_option(
+        app, "-o,--output", args.files, "FILE",
         "Write the outline, too: its points as .csv or .npz, or the drawing at 1:1 as .svg or .pdf (repeatable)");
-    app.flag("--beam", args.beam,
-             "Find the jump speed of the scene's beam, too, by simulating six turns at each of some speeds");
+    app.add_flag("--beam", args.beam,
+                 "Find the jump speed of the scene's beam, too, by simulating six turns at each of some speeds");
     add_json(app, args.common);
     add_force(app, args.common);
 }

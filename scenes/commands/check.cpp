@@ -30,11 +30,11 @@ int act(const CheckArguments& args) {
 
 }  // namespace
 
-void add_check(Grammar& grammar) {
-    const auto [app, args] = grammar.command<CheckArguments>(
-        "check", "Validate scenes: print all errors and warnings with line, column and remedy, and what is assumed",
-        act);
-    app.examples = {"check fall.json"};
+void add_check(Program& program) {
+    const auto [app, args] = add_command<CheckArguments>(
+        program, "check",
+        "Validate scenes: print all errors and warnings with line, column and remedy, and what is assumed", act);
+    add_examples(app, {"check fall.json"});
     add_scenes(app, args.scenes, args.common);
 }
 

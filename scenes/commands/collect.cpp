@@ -31,12 +31,12 @@ void act(const CollectArguments& args) {
 
 }  // namespace
 
-void add_collect(Grammar& grammar) {
+void add_collect(Program& program) {
     const auto [app, args] =
-        grammar.command<CollectArguments>("collect", "Join the parts of a sweep, made with `sweep --shard`", act);
-    app.examples = {"collect sweep.*of8.points -o sweep.csv"};
-    app.positional("PART", &args.parts, "The parts, .points files, in any order").required();
-    app.option("-o,--output", &args.file, "FILE", "Table to make: .csv, .npz or .nc").required();
+        add_command<CollectArguments>(program, "collect", "Join the parts of a sweep, made with `sweep --shard`", act);
+    add_examples(app, {"collect sweep.*of8.points -o sweep.csv"});
+    app.add_option("PART", args.parts, "The parts, .points files, in any order")->required();
+    add_option(app, "-o,--output", args.file, "FILE", "Table to make: .csv, .npz or .nc")->required();
     add_force(app, args.common);
     add_quiet(app, args.common);
 }

@@ -1,5 +1,5 @@
 // The commands and what they share: common options, reading of scenes, checks of arguments. Each command is one file of
-// this folder: `add_NAME` adds its grammar to the program and binds its action.
+// this folder: `add_NAME` adds its options to the program and binds its action.
 #pragma once
 
 #include <exception>
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "output/files/standard_output.hpp"
-#include "scenes/commands/grammar.hpp"
+#include "scenes/commands/program.hpp"
 #include "scenes/format/units.hpp"
 #include "scenes/outputs/run.hpp"
 #include "scenes/scene/exit_code.hpp"
@@ -20,7 +20,7 @@
 namespace beamcam::scenes {
 
 // The commands, in the order of --help.
-using AddCommand = void(Grammar& grammar);
+using AddCommand = void(Program& program);
 AddCommand add_run, add_render, add_simulate, add_sweep, add_collect, add_lyapunov, add_orbits, add_modes, add_cam,
     add_check, add_plan, add_init, add_examples, add_schema, add_keys, add_hash, add_diff, add_test, add_info,
     add_doctor, add_accuracy, add_figure, add_completion, add_manual;
@@ -37,17 +37,17 @@ struct Common : RunOptions {
     bool dry_run = false, json = false;
 };
 
-void add_set(Command& app, Common& common);                                       // --set
-void add_quiet(Command& app, Common& common);                                     // -q
-void add_scene(Command& app, std::string& scene, Common& common);                 // SCENE, --set, -q
-void add_scenes(Command& app, std::vector<std::string>& scenes, Common& common);  // SCENE..., --set, -q
-void add_jobs(Command& app, Common& common, const char* what);                    // -j
-void add_progress(Command& app, Common& common);                                  // --progress
-void add_json(Command& app, Common& common);                                      // --json
-void add_force(Command& app, Common& common);                                     // --force
-void add_column(Command& app, std::string& column);                               // --column
-void add_lang(Command& app, Lang& lang);                                          // --lang
-void add_work(Command& app, Common& common);                                      // -v -j --progress --force -n --json
+void add_set(CLI::App& app, Common& common);                                       // --set
+void add_quiet(CLI::App& app, Common& common);                                     // -q
+void add_scene(CLI::App& app, std::string& scene, Common& common);                 // SCENE, --set, -q
+void add_scenes(CLI::App& app, std::vector<std::string>& scenes, Common& common);  // SCENE..., --set, -q
+void add_jobs(CLI::App& app, Common& common, const char* what);                    // -j
+void add_progress(CLI::App& app, Common& common);                                  // --progress
+void add_json(CLI::App& app, Common& common);                                      // --json
+void add_force(CLI::App& app, Common& common);                                     // --force
+void add_column(CLI::App& app, std::string& column);                               // --column
+void add_lang(CLI::App& app, Lang& lang);                                          // --lang
+void add_work(CLI::App& app, Common& common);                                      // -v -j --progress --force -n --json
 
 // ---- steps that several commands share ----------------------------------------------------------
 

@@ -20,54 +20,58 @@
 
 namespace beamcam::scenes {
 
-void add_set(Command& app, Common& common) {
-    app.option("--set", &common.overrides, "KEY=VALUE",
+void add_set(CLI::App& app, Common& common) {
+    add_option(app, "--set", common.overrides, "KEY=VALUE",
                "Change a key of the scene, for example --set cam.speed=300rpm: a JSON value or a plain word "
                "(repeatable)")
-        .checked_by(problem_with_override);
+        ->check(problem_with_override, "");
 }
-void add_quiet(Command& app, Common& common) {
-    app.flag("-q,--quiet", common.quiet,
-             "Print no messages but errors on standard error; standard output stays the same");
+void add_quiet(CLI::App& app, Common& common) {
+    app.add_flag("-q,--quiet", common.quiet,
+                 "Print no messages but errors on standard error; standard output stays the same");
 }
 
-void add_scene(Command& app, std::string& scene, Common& common) {
-    app.positional("SCENE", &scene, "The scene, a JSON file; - is standard input").required();
+void add_scene(CLI::App& app, std::string& scene, Common& common) {
+    app.add_option("SCENE", scene, "The scene, a JSON file; - is standard input")->required();
     add_set(app, common);
     add_quiet(app, common);
 }
 
-void add_scenes(Command& app, std::vector<std::string>& scenes, Common& common) {
-    app.positional("SCENE", &scenes, "Scenes, JSON files; - is standard input").required();
+void add_scenes(CLI::App& app, std::vector<std::string>& scenes, Common& common) {
+    app.add_option("SCENE", scenes, "Scenes, JSON files; - is standard input")->required();
     add_set(app, common);
     add_quiet(app, common);
 }
 
-void add_jobs(Command& app, Common& common, const char* what) {
-    app.option("-j,--jobs", &common.threads, "N", fmt::format("{} (default: one for each core)", what)).range(1, 1024);
+void add_jobs(CLI::App& app, Common& common, const char* what) {
+    within(add_option(app, "-j,--jobs", common.threads, "N", fmt::format("{} (default: one for each core)", what)), 1,
+           1024);
 }
-void add_progress(Command& app, Common& common) {
-    app.choice("--progress", common.progress, kProgressStyles, "STYLE", "Progress on standard error");
+void add_progress(CLI::App& app, Common& common) {
+    add_choice(app, "--progress", common.progress, kProgressStyles, "STYLE", "Progress on standard error");
 }
-void add_json(Command& app, Common& common) { app.flag("--json", common.json, "Print JSON"); }
-void add_force(Command& app, Common& common) {
-    app.flag("--force", common.force, "Replace existing files, even those that beamcam did not make");
+void add_json(CLI::App& app, Common& common) { app.add_flag("--json", common.json, "Print JSON"); }
+void add_force(CLI::App& app, Common& common) {
+    app.add_flag("--force", common.force, "Replace existing files, even those that beamcam did not make");
 }
-void add_column(Command& app, std::string& column) {
-    app.option("--column", &column, "COLUMN", "Column of a journal: sets width and font size of the figure")
-        .one_of(render::figure::column_names());
+void add_column(CLI::App& app, std::string& column) {
+    one_of(add_option(app, "--column", column, "COLUMN", "Column of a journal: sets width and font size of the figure"),
+           render::figure::column_names());
 }
-void add_lang(Command& app, Lang& lang) { app.choice("--lang", lang, kLanguages, "LANG", "Language of the figure"); }
+void add_lang(CLI::App& app, Lang& lang) {
+    add_choice(app, "--lang", lang, kLanguages, "LANG", "Language of the figure");
+}
 
-void add_work(Command& app, Common& common) {
-    app.flag("-v,--verbose", common.verbose,
-             "Print where the time was spent, counts of the work, and how measured data were read");
+void add_work(CLI::App& app, Common& common) {
+    app.add_flag("-v,--verbose", common.verbose,
+                 "Print where the time was spent, counts of the work, and how measured data were read");
     add_jobs(app, common, "Largest number of threads");
     add_progress(app, common);
-    app.flag("--force", common.force,
-             "Replace existing files, even those that beamcam did not make, and make files again that are up to date");
-    app.flag("-n,--dry-run", common.dry_run, "Print the plan and do nothing");
-    app.flag("--json", common.json, "With -n: print the plan as JSON");
+    app.add_flag(
+        "--force", common.force,
+        "Replace existing files, even those that beamcam did not make, and make files again that are up to date");
+    app.add_flag("-n,--dry-run", common.dry_run, "Print the plan and do nothing");
+    app.add_flag("--json", common.json, "With -n: print the plan as JSON");
 }
 
 std::string lowered(std::string text) {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,7 @@ namespace {
 
 struct CompletionArguments {
     std::string shell;
-    const Grammar* grammar = nullptr;
+    const Program* program = nullptr;
 };
 
 // These call _beamcam_list, which prints the options of the command $1, or all commands without $1.
@@ -55,21 +56,20 @@ complete -c beamcam -f -a '(_beamcam_complete)'
 )sh";
 
 // "--help -o --output": the options of a command.
-std::string options_of(const Command& command) {
+std::string names_of_options(const CLI::App& command) {
     std::string words = "--help";
-    for (const Parameter& parameter : command.parameters)
-        if (parameter.is_option()) words += " " + parameter.names;
-    for (char& c : words)
-        if (c == ',') c = ' ';
+    for (const CLI::Option* option : options_of(command))
+        if (!option->get_positional()) words += " " + option->get_name(false, true);
+    std::ranges::replace(words, ',', ' ');
     return words;
 }
 
 // The cases of _beamcam_list. `line`: the case of a command, and what it prints.
-std::string cases_of(const Grammar& grammar, const char* line) {
+std::string cases_of(const Program& program, const char* line) {
     std::string text, all = "--help --version";
-    for (const Command& command : grammar.commands) {
-        text += fmt::format(fmt::runtime(line), command.name, options_of(command));
-        all += " " + command.name;
+    for (const CLI::App* command : commands_of(program)) {
+        text += fmt::format(fmt::runtime(line), command->get_name(), names_of_options(*command));
+        all += " " + command->get_name();
     }
     return text + fmt::format(fmt::runtime(line), "''", all);
 }
@@ -79,20 +79,20 @@ void act(const CompletionArguments& args) {
         fmt::format("# {0} completion of beamcam, printed by `beamcam completion {0}`\n", args.shell);
     if (args.shell == "fish")
         return print_data(head + "function _beamcam_list\n    switch \"$argv\"\n" +
-                          cases_of(*args.grammar, "        case {}; printf '%s\\n' {}\n") + "    end\nend\n" + kFish);
+                          cases_of(*args.program, "        case {}; printf '%s\\n' {}\n") + "    end\nend\n" + kFish);
     print_data((args.shell == "zsh" ? "#compdef beamcam\n" : "") + head + "_beamcam_list() {\n    case $1 in\n" +
-               cases_of(*args.grammar, "        {}) printf '%s\\n' {} ;;\n") + "    esac\n}\n" +
+               cases_of(*args.program, "        {}) printf '%s\\n' {} ;;\n") + "    esac\n}\n" +
                (args.shell == "zsh" ? kZsh : kBash));
 }
 
 }  // namespace
 
-void add_completion(Grammar& grammar) {
+void add_completion(Program& program) {
     const auto [app, args] =
-        grammar.command<CompletionArguments>("completion", "Print the completion script for a shell", act);
-    args.grammar = &grammar;
-    app.examples = {"completion bash > ~/.local/share/bash-completion/completions/beamcam"};
-    app.positional("SHELL", &args.shell, "The shell").required().one_of({"bash", "zsh", "fish"});
+        add_command<CompletionArguments>(program, "completion", "Print the completion script for a shell", act);
+    args.program = &program;
+    add_examples(app, {"completion bash > ~/.local/share/bash-completion/completions/beamcam"});
+    one_of(app.add_option("SHELL", args.shell, "The shell")->required(), {"bash", "zsh", "fish"});
 }
 
 }  // namespace beamcam::scenes

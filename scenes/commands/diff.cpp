@@ -130,20 +130,20 @@ int act(const DiffArguments& args) {
 
 }  // namespace
 
-void add_diff(Grammar& grammar) {
-    const auto [app, args] = grammar.command<DiffArguments>(
-        "diff", "Compare two pictures, sequences of pictures, or tables; exit code 7 if they differ", act);
-    app.examples = {"diff old.png new.png -o difference.png", "diff a.csv b.csv --tolerance 1e-6"};
-    app.positional("A", &args.a, "PNG file, directory or sequence (name-####.png), .csv or .npz table").required();
-    app.positional("B", &args.b, "The same kind of file").required();
-    app.option("-o,--output", &args.picture, "FILE",
+void add_diff(Program& program) {
+    const auto [app, args] = add_command<DiffArguments>(
+        program, "diff", "Compare two pictures, sequences of pictures, or tables; exit code 7 if they differ", act);
+    add_examples(app, {"diff old.png new.png -o difference.png", "diff a.csv b.csv --tolerance 1e-6"});
+    app.add_option("A", args.a, "PNG file, directory or sequence (name-####.png), .csv or .npz table")->required();
+    app.add_option("B", args.b, "The same kind of file")->required();
+    add_option(app, "-o,--output", args.picture, "FILE",
                "Difference picture, .png; with #### in its name, one for each pair of pictures that differs");
-    app.option("--tolerance", &args.tolerance, "X",
+    add_option(app, "--tolerance", args.tolerance, "X",
                "Differences up to this count as equivalent: of pictures, a difference of a colour channel, 0 … 255; of "
                "tables, a share of a column's range (texts and classes have none)");
-    app.option("--ssim", &args.ssim, "X",
-               "Pictures with at least this structural similarity (0 … 1) count as equivalent")
-        .range(0, 1);
+    within(add_option(app, "--ssim", args.ssim, "X",
+                      "Pictures with at least this structural similarity (0 … 1) count as equivalent"),
+           0.0, 1.0);
     add_json(app, args.common);
     add_force(app, args.common);
     add_quiet(app, args.common);

@@ -111,9 +111,9 @@ int act(const Common& common) {
 
 }  // namespace
 
-void add_doctor(Grammar& grammar) {
-    const auto [app, common] = grammar.command<Common>(
-        "doctor",
+void add_doctor(Program& program) {
+    const auto [app, common] = add_command<Common>(
+        program, "doctor",
         "List libraries, fonts and encoders, and packages that contain missing ones; exit code 5 if any is missing",
         act);
     add_json(app, common);

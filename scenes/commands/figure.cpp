@@ -15,6 +15,7 @@
 #include "render/draw/markup.hpp"
 #include "scenes/commands/key_options.hpp"
 #include "scenes/figures/figure_types.hpp"
+#include "scenes/format/overrides.hpp"
 #include "scenes/format/presets.hpp"
 #include "scenes/format/reader.hpp"
 #include "scenes/format/suggest.hpp"
@@ -36,23 +37,21 @@ struct FigureArguments {
     KeyOptions panel{"figure"};  // of the figure's only panel
     std::optional<std::string> data, caption;
     // Options of "series":
+    KeyOptions series{"figure"};
     std::vector<std::string> compare, notes;
     std::optional<std::string> title;
-    bool impacts = false, residuals = false, logarithmic = false, apart = false;
+    bool logarithmic = false;
 
     bool describes_panel() const { return panel.any() || title; }
     // Options that describe a series, and their keys; options of `print` describe other figures.
     std::vector<std::pair<std::string, std::string>> of_series() const {
         std::vector<std::pair<std::string, std::string>> out;
-        for (const KeyOptions* group : {&channels, &span, &panel})
+        for (const KeyOptions* group : {&channels, &span, &panel, &series})
             std::ranges::move(group->given(), back_inserter(out));
         if (title) out.emplace_back("--title", "panels");
         if (logarithmic) out.emplace_back("--log", "panels");
         if (!compare.empty()) out.emplace_back("--compare", "compare");
-        if (apart) out.emplace_back("--panels", "comparison");
         if (!notes.empty()) out.emplace_back("--note", "notes");
-        if (impacts) out.emplace_back("--impacts", "impacts");
-        if (residuals) out.emplace_back("--residuals", "residuals");
         return out;
     }
 };
@@ -110,13 +109,6 @@ Node compare_node(const FigureArguments& args) {
     return compare;
 }
 
-// The keys of a panel that the options of the panel do not set.
-Node panel_node(const FigureArguments& args) {
-    Node panel = object_node({{"channels", args.channels.values("--channels")}});
-    if (args.title) add(panel, "title", *args.title);
-    return panel;
-}
-
 // "impact:1=first touch"
 Node note_node(const std::string& text) {
     const std::size_t sign = text.find('=');
@@ -128,13 +120,11 @@ Node note_node(const std::string& text) {
 Node output_node(const FigureArguments& args, const std::optional<Preset>& preset) {
     Node output = output_of(args.figure);
     if (preset) add_preset(output, *preset);
-    if (args.describes_panel() && !preset) add(output, "panels", array_node({panel_node(args)}));
-    if (Node* first = preset && args.title ? child(output, "panels") : nullptr; first && !first->items.empty())
-        add(first->items.front(), "title", *args.title);
+    if (args.describes_panel() && !preset)
+        add(output, "panels", array_node({object_node({{"channels", args.channels.values("--channels")}})}));
+    if (Node* panels = child(output, "panels"); args.title && panels && !panels->items.empty())
+        add(panels->items.front(), "title", *args.title);
     if (!args.compare.empty()) add(output, "compare", compare_node(args));
-    if (args.impacts) add(output, "impacts", true);
-    if (args.residuals) add(output, "residuals", true);
-    if (args.apart) add(output, "comparison", "panels");
     if (!args.notes.empty()) add(output, "notes", array_node(args.notes, note_node));
     return output;
 }
@@ -164,10 +154,10 @@ FigureOutput figure_output(const FigureArguments& args, const std::optional<Pres
     if (args.figure == "series" && !preset && !args.channels.any())
         throw UsageError("figure series: name its --channels, for example theta,contact_force");
     const KeyOptions no_channels{"figure"};  // they are in the panel
-    auto figure = std::get<FigureOutput>(
-        read_output(output_node(args, preset),
-                    {&args.print, args.describes_panel() ? &no_channels : &args.channels, &args.panel, &args.span},
-                    scene, args.scene, args.common));
+    auto figure = std::get<FigureOutput>(read_output(
+        output_node(args, preset),
+        {&args.print, args.describes_panel() ? &no_channels : &args.channels, &args.panel, &args.span, &args.series},
+        scene, args.scene, args.common));
     if (SeriesKeys& keys = figure.series; !args.compare.empty())
         keys.compare.front().problem = scene.problem;  // with the values of --set
     for (SeriesPanel& panel : figure.series.panels) panel.logarithmic = panel.logarithmic || args.logarithmic;
@@ -246,7 +236,7 @@ void act(const FigureArguments& given) {
 
 // ---- options ---------------------------------------------------------------------------------------
 
-void add_print_options(Command& app, FigureArguments& args) {
+void add_print_options(CLI::App& app, FigureArguments& args) {
     args.print.add(app, "--column", "column", "COLUMN");
     args.print.add(app, "--width", "width", "W");
     args.print.add(app, "--height", "height", "H");
@@ -254,11 +244,11 @@ void add_print_options(Command& app, FigureArguments& args) {
     args.print.add(app, "--dpi", "dpi", "N");
     args.print.add(app, "--font", "font", "FONT");
     args.print.add(app, "--theme", "theme", "THEME");
-    app.option("--data", &args.data, "FILE", "Write the plotted numbers, too: .csv");
-    app.option("--caption", &args.caption, "FILE", "Write the caption, too: .txt or .md");
+    add_option(app, "--data", args.data, "FILE", "Write the plotted numbers, too: .csv");
+    add_option(app, "--caption", args.caption, "FILE", "Write the caption, too: .txt or .md");
 }
 
-void add_content_options(Command& app, FigureArguments& args) {
+void add_content_options(CLI::App& app, FigureArguments& args) {
     args.channels.add_list(app, "--channels", "channels", "CHANNEL,...");
     args.span.add(app, "--x", "x", "CHANNEL");
     args.span.add(app, "--x-low", "x_low", "V");
@@ -272,51 +262,52 @@ void add_content_options(Command& app, FigureArguments& args) {
     args.print.add(app, "--window", "window", "T");
 }
 
-void add_series_options(Command& app, FigureArguments& args) {
+void add_series_options(CLI::App& app, FigureArguments& args) {
     args.panel.add_list(app, "--right", "panels.0.right", "CHANNEL,...")
-        .says("In \"series\": channels of another unit, on an axis at the right");
-    app.option("--compare", &args.compare, "SCENE,...", "In \"series\": the same channels of these scenes, too")
-        .separated_by(',');
+        ->description("In \"series\": channels of another unit, on an axis at the right");
+    add_list(app, "--compare", args.compare, "SCENE,...", "In \"series\": the same channels of these scenes, too");
     const std::string one_panel = "In \"series\" with one panel: ";
     args.panel.add_list(app, "--lines", "panels.0.lines", "V,...")
-        .says(one_panel +
-              "horizontal lines at these values of the left axis, such as 45deg; plain numbers are in SI units");
+        ->description(
+            one_panel +
+            "horizontal lines at these values of the left axis, such as 45deg; plain numbers are in SI units");
     args.panel.add(app, "--low", "panels.0.low", "V")
-        .says(one_panel + "lower end of the left axis, such as 45deg; a plain number is in SI units");
+        ->description(one_panel + "lower end of the left axis, such as 45deg; a plain number is in SI units");
     args.panel.add(app, "--high", "panels.0.high", "V")
-        .says(one_panel + "upper end of the left axis; a plain number is in SI units");
+        ->description(one_panel + "upper end of the left axis; a plain number is in SI units");
     args.panel.add(app, "--label", "panels.0.label", "TEXT")
-        .says(one_panel + "label of the left axis, without the unit");
+        ->description(one_panel + "label of the left axis, without the unit");
     args.panel.add(app, "--unit", "panels.0.unit", "UNIT")
-        .says(one_panel + "unit of the left axis, such as MPa or deg");
-    app.option("--title", &args.title, "TEXT", "In \"series\" with one panel: its title; $θ$ is mathematics");
-    app.option("--note", &args.notes, "AT=TEXT",
+        ->description(one_panel + "unit of the left axis, such as MPa or deg");
+    add_option(app, "--title", args.title, "TEXT", "In \"series\" with one panel: its title; $θ$ is mathematics");
+    add_option(app, "--note", args.notes, "AT=TEXT",
                "In \"series\": a line with a text at an instant, for example impact:1=touch (repeatable)");
-    app.flag("--panels", args.apart, "In \"series\" with --compare: separate panels for each motion");
-    app.flag("--log", args.logarithmic,
-             "In \"series\": logarithmic axes of values, which omit values that are not positive");
-    app.flag("--impacts", args.impacts, "In \"series\": lines where impacts begin");
-    app.flag("--residuals", args.residuals,
-             "In \"series\": below each panel with measured data, a panel with the differences");
+    app.add_flag("--log", args.logarithmic,
+                 "In \"series\": logarithmic axes of values, which omit values that are not positive");
+    args.series.add_flag(app, "--panels", "comparison", "panels",
+                         "In \"series\" with --compare: separate panels for each motion");
+    args.series.add_flag(app, "--impacts", "impacts", "true", "In \"series\": lines where impacts begin");
+    args.series.add_flag(app, "--residuals", "residuals", "true",
+                         "In \"series\": below each panel with measured data, a panel with the differences");
 }
 
 }  // namespace
 
-void add_figure(Grammar& grammar) {
-    const auto [app, args] = grammar.command<FigureArguments>(
-        "figure", "Make a figure for print; without FIGURE, list the figures of the scene", act);
-    app.examples = {"figure fall.json energy -o energy.pdf --column aps",
-                    "figure fall.json --channels theta,contact_force --from impact:1 -o touch.svg",
-                    "figure peaks.csv --x cam.speed --x-unit rpm --channels force_peak -o peaks.pdf"};
-    app.footer =
-        "In place of SCENE a table may stand (.csv, .npz): its columns --channels over --x, with --label, --unit, "
-        "--x-label and --x-unit. Without -o its columns are listed.";
+void add_figure(Program& program) {
+    const auto [app, args] = add_command<FigureArguments>(
+        program, "figure", "Make a figure for print; without FIGURE, list the figures of the scene", act);
+    add_examples(app, {"figure fall.json energy -o energy.pdf --column aps",
+                       "figure fall.json --channels theta,contact_force --from impact:1 -o touch.svg",
+                       "figure peaks.csv --x cam.speed --x-unit rpm --channels force_peak -o peaks.pdf"});
+    add_note(app,
+             "In place of SCENE a table may stand (.csv, .npz): its columns --channels over --x, with --label, --unit, "
+             "--x-label and --x-unit. Without -o its columns are listed.");
     add_scene(app, args.scene, args.common);
-    app.positional("FIGURE", &args.figure,
+    app.add_option("FIGURE", args.figure,
                    "Name of the figure or preset; not needed with --channels (\"series\") and --at (\"strobe\")");
-    app.flag("--list", args.list, "List all figures and presets, and which of them this scene cannot have");
-    app.option("--preset", &args.preset, "FILE", "A preset of your own: .json with the keys of a figure");
-    app.option("-o,--output", &args.file, "FILE", "File to make: .pdf, .svg or .png");
+    app.add_flag("--list", args.list, "List all figures and presets, and which of them this scene cannot have");
+    add_option(app, "--preset", args.preset, "FILE", "A preset of your own: .json with the keys of a figure");
+    add_option(app, "-o,--output", args.file, "FILE", "File to make: .pdf, .svg or .png");
     add_print_options(app, args);
     add_content_options(app, args);
     add_series_options(app, args);

@@ -1,7 +1,7 @@
 // `beamcam hash`: digests of decoded pixels.
 #include "output/files/digest.hpp"
-#include "output/image/png_reader.hpp"
 #include "output/files/standard_output.hpp"
+#include "output/image/png_reader.hpp"
 #include "scenes/commands/commands.hpp"
 
 namespace beamcam::scenes {
@@ -19,13 +19,14 @@ int act(const HashArguments& args) {
 
 }  // namespace
 
-void add_hash(Grammar& grammar) {
-    const auto [app, args] =
-        grammar.command<HashArguments>("hash", "Print the SHA-256 digests of the decoded pixels of PNG files", act);
-    app.examples = {"hash fall.png"};
-    app.positional("PNG", &args.files, "PNG files").required();
-    app.footer = "The digest is taken over the R, G, B, A bytes of 8 bits, row by row. FFmpeg prints the same with\n"
-                 "  ffmpeg -i FILE -pix_fmt rgba -f hash -hash sha256 -";
+void add_hash(Program& program) {
+    const auto [app, args] = add_command<HashArguments>(
+        program, "hash", "Print the SHA-256 digests of the decoded pixels of PNG files", act);
+    add_examples(app, {"hash fall.png"});
+    app.add_option("PNG", args.files, "PNG files")->required();
+    add_note(app,
+             "The digest is taken over the R, G, B, A bytes of 8 bits, row by row. FFmpeg prints the same with\n"
+             "  ffmpeg -i FILE -pix_fmt rgba -f hash -hash sha256 -");
 }
 
 }  // namespace beamcam::scenes

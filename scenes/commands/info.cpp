@@ -186,13 +186,13 @@ int act(const InfoArguments& args) {
 
 }  // namespace
 
-void add_info(Grammar& grammar) {
+void add_info(Program& program) {
     const auto [app, args] =
-        grammar.command<InfoArguments>("info", "Print the provenance of a picture, film, figure or table", act);
-    app.examples = {"info fall.mp4", "info fall.mp4 --scene > fall.json"};
-    app.positional("FILE", &args.files, "Files that beamcam made").required();
-    app.flag("--scene", args.scene,
-             "Print the scene that the file was made from; `beamcam run` makes the same file from it");
+        add_command<InfoArguments>(program, "info", "Print the provenance of a picture, film, figure or table", act);
+    add_examples(app, {"info fall.mp4", "info fall.mp4 --scene > fall.json"});
+    app.add_option("FILE", args.files, "Files that beamcam made")->required();
+    app.add_flag("--scene", args.scene,
+                 "Print the scene that the file was made from; `beamcam run` makes the same file from it");
     add_json(app, args.common);
 }
 

@@ -73,25 +73,26 @@ void print_schema(const SchemaArguments& args) {
 
 }  // namespace
 
-void add_init(Grammar& grammar) {
-    const auto [app, args] = grammar.command<InitArguments>("init", "Write a scene with comments to start from", act);
-    app.examples = {"init fall", "init fast --from fast-cam"};
-    app.positional("NAME", &args.name,
+void add_init(Program& program) {
+    const auto [app, args] =
+        add_command<InitArguments>(program, "init", "Write a scene with comments to start from", act);
+    add_examples(app, {"init fall", "init fast --from fast-cam"});
+    app.add_option("NAME", args.name,
                    "Name of the new file (default: scene, or the name of the example); - is standard output");
-    app.option("--from", &args.from, "EXAMPLE", "Copy this example; `beamcam examples` lists all");
-    app.flag("--force", args.common.force, "Replace an existing file");
+    add_option(app, "--from", args.from, "EXAMPLE", "Copy this example; `beamcam examples` lists all");
+    app.add_flag("--force", args.common.force, "Replace an existing file");
     add_quiet(app, args.common);
 }
 
-void add_examples(Grammar& grammar) {
-    grammar.command<Common>("examples", "List the examples that `beamcam init --from` copies", list_examples);
+void add_examples(Program& program) {
+    add_command<Common>(program, "examples", "List the examples that `beamcam init --from` copies", list_examples);
 }
 
-void add_schema(Grammar& grammar) {
+void add_schema(Program& program) {
     const auto [app, args] =
-        grammar.command<SchemaArguments>("schema", "Print the JSON Schema of scenes, for editors", print_schema);
-    app.examples = {"schema > beamcam-scene.schema.json"};
-    app.flag("--baselines", args.baselines, "Print the schema of the baselines of `beamcam test` instead");
+        add_command<SchemaArguments>(program, "schema", "Print the JSON Schema of scenes, for editors", print_schema);
+    add_examples(app, {"schema > beamcam-scene.schema.json"});
+    app.add_flag("--baselines", args.baselines, "Print the schema of the baselines of `beamcam test` instead");
 }
 
 }  // namespace beamcam::scenes

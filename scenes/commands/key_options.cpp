@@ -4,9 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
+#include <stdexcept>
 
-#include "output/files/numbers.hpp"
 #include "output/files/standard_output.hpp"
 #include "scenes/format/description.hpp"
 #include "scenes/format/overrides.hpp"
@@ -24,6 +23,18 @@ Node value_of(const std::string& text, std::size_t source, std::vector<Message>&
     return value ? value->value : Node{};
 }
 
+const DescribedKey& described_key(const std::string& type, const std::string& key) {
+    static const std::vector<KeyRow> rows = key_rows();
+    const std::string path = "outputs[]." + key, tag = "type=" + type;
+    const auto row = std::ranges::find_if(rows, [&](const KeyRow& each) {
+        const std::size_t at = each.when.find(tag);
+        return each.path == path && at != std::string::npos &&
+               (at + tag.size() == each.when.size() || each.when[at + tag.size()] == ' ');
+    });
+    if (row == rows.end()) throw std::logic_error(fmt::format("there is no key {} of {}", path, tag));
+    return *row->key;
+}
+
 // "still, video": the types of outputs that have this key.
 std::string types_with(const std::string& key) {
     std::vector<std::string> types;
@@ -39,27 +50,34 @@ std::string types_with(const std::string& key) {
 
 }  // namespace
 
-Node value_node(const std::string& text) {
-    const auto number = output::number_in<double>(text);
-    Node node = number && std::isfinite(*number) ? Node(*number) : Node(text);
-    node.text = text;  // as it was written, for messages
-    return node;
+CLI::Option* KeyOptions::explained(CLI::App& app, CLI::Option* option, const char* key, const char* note) const {
+    const auto meaning = [type = type_, key, note] {
+        const DescribedKey& described = described_key(type, key);
+        std::string text = *note ? fmt::format("{} {}", note, described.meaning) : described.meaning;
+        if (!described.unit.empty()) text += fmt::format(" [{}]", described.unit);
+        if (!described.words.empty()) return fmt::format("{} ({})", text, fmt::join(described.words, ", "));
+        return described.type.find('"') == std::string::npos ? text : fmt::format("{} ({})", text, described.type);
+    };
+    static_cast<HelpFormatter&>(*app.get_formatter()).explain(option, meaning);
+    return option;
 }
 
-Parameter& KeyOptions::add(Command& command, const char* name, const char* key, const char* placeholder,
-                           const char* note) {
-    Parameter& parameter =
-        command.option(name, &options_.emplace_back(Option{name, key, {}, {}}).value, placeholder, note);
-    parameter.output_type = type_;
-    parameter.key = key;
-    return parameter;
+CLI::Option* KeyOptions::add(CLI::App& app, const char* name, const char* key, const char* placeholder,
+                             const char* note) {
+    std::optional<std::string>& value = options_.emplace_back(Option{name, key, {}, {}}).value;
+    return explained(app, add_option(app, name, value, placeholder, ""), key, note);
 }
 
-Parameter& KeyOptions::add_list(Command& command, const char* name, const char* key, const char* placeholder,
-                                const char* note) {
-    Parameter& parameter = add(command, name, key, placeholder, note).separated_by(',');
-    parameter.storage = &options_.back().values;
-    return parameter;
+CLI::Option* KeyOptions::add_list(CLI::App& app, const char* name, const char* key, const char* placeholder,
+                                  const char* note) {
+    std::vector<std::string>& values = options_.emplace_back(Option{name, key, {}, {}}).values;
+    return explained(app, scenes::add_list(app, name, values, placeholder, ""), key, note);
+}
+
+void KeyOptions::add_flag(CLI::App& app, const char* name, const char* key, const char* value, const char* meaning) {
+    Option& option = options_.emplace_back(Option{name, key, {}, {}});
+    app.add_flag_callback(
+        name, [&option, value] { option.value = value; }, meaning);
 }
 
 const std::string* KeyOptions::value(std::string_view name) const {

@@ -20,11 +20,14 @@ class KeyOptions {
     // `type`: an output that has all keys of these options, "video".
     explicit KeyOptions(const char* type) : type_(type) {}
 
-    // The option `name` sets `key`, "view.style". `note`: text before the key's meaning in the help.
-    Parameter& add(Command& command, const char* name, const char* key, const char* placeholder, const char* note = "");
+    // The option `name` sets `key`, "view.style". Its help is the key's meaning after `note`.
+    CLI::Option* add(CLI::App& app, const char* name, const char* key, const char* placeholder, const char* note = "");
     // An option for a key whose value is a list: values separated by commas.
-    Parameter& add_list(Command& command, const char* name, const char* key, const char* placeholder,
-                        const char* note = "");
+    CLI::Option* add_list(CLI::App& app, const char* name, const char* key, const char* placeholder,
+                          const char* note = "");
+
+    // A flag that gives the key this value.
+    void add_flag(CLI::App& app, const char* name, const char* key, const char* value, const char* meaning);
 
     // The value that was given to an option; null: it was not given.
     const std::string* value(std::string_view name) const;
@@ -43,12 +46,11 @@ class KeyOptions {
     };
     friend Output read_output(Node, std::initializer_list<const KeyOptions*>, Scene, const std::string&, const Common&);
 
+    CLI::Option* explained(CLI::App& app, CLI::Option* option, const char* key, const char* note) const;
+
     const char* type_;
     std::deque<Option> options_;  // the parser stores values here: the addresses stay
 };
-
-// A number if the text is one, else the text itself.
-Node value_node(const std::string& text);
 
 // The output that `output` describes as a scene would, with the values of the options. `scene_file` is the scene's name
 // in messages; warnings go to standard error. Throws UsageError.

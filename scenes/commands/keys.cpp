@@ -96,15 +96,15 @@ void act(const KeysArguments& args) {
 
 }  // namespace
 
-void add_keys(Grammar& grammar) {
-    const auto [app, args] =
-        grammar.command<KeysArguments>("keys", "Explain the keys of scenes: type, unit, range, default, meaning", act);
-    app.examples = {"keys damping", "keys 'contact*'"};
-    app.positional(
-        "PATTERN", &args.pattern,
+void add_keys(Program& program) {
+    const auto [app, args] = add_command<KeysArguments>(
+        program, "keys", "Explain the keys of scenes: type, unit, range, default, meaning", act);
+    add_examples(app, {"keys damping", "keys 'contact*'"});
+    app.add_option(
+        "PATTERN", args.pattern,
         "Only keys with this text in their path or meaning, or of this type of output; * stands for any text");
-    app.flag("--json", args.json, "Print JSON");
-    app.flag("--markdown", args.markdown, "Print all keys as Markdown (scenes/FORMAT.md)");
+    app.add_flag("--json", args.json, "Print JSON");
+    app.add_flag("--markdown", args.markdown, "Print all keys as Markdown (scenes/FORMAT.md)");
 }
 
 }  // namespace beamcam::scenes

@@ -79,23 +79,25 @@ int act(const LyapunovArguments& args) {
 
 }  // namespace
 
-void add_lyapunov(Grammar& grammar) {
-    const auto [app, args] = grammar.command<LyapunovArguments>(
-        "lyapunov", "Compute the Lyapunov exponents of a motion, which show chaos", act);
-    app.examples = {"lyapunov pressed.json --set cam.speed=54.3 --transient 200 --duration '60 s' -o convergence.pdf"};
-    app.footer =
+void add_lyapunov(Program& program) {
+    const auto [app, args] = add_command<LyapunovArguments>(
+        program, "lyapunov", "Compute the Lyapunov exponents of a motion, which show chaos", act);
+    add_examples(app,
+                 {"lyapunov pressed.json --set cam.speed=54.3 --transient 200 --duration '60 s' -o convergence.pdf"});
+    add_note(
+        app,
         "`beamcam init --from pressed` writes the scene of the example. In JSON, which has no infinities, an exponent "
-        "of −∞ is null, as where lasting contact removes every difference; \"chaotic\" is null if it is doubtful.";
+        "of −∞ is null, as where lasting contact removes every difference; \"chaotic\" is null if it is doubtful.");
     add_scene(app, args.scene, args.common);
     add_result_options(app, args.files, args.common,
                        "Write the result, too: .json, or the convergence as .png, .svg or .pdf (repeatable)");
-    app.option("--count", &args.request.count, "K", "Compute the K largest only (default: all)").range(1, 82);
-    app.option("--transient", &args.transient, "T",
+    within(add_option(app, "--count", args.request.count, "K", "Compute the K largest only (default: all)"), 1, 82);
+    add_option(app, "--transient", args.transient, "T",
                "Time left out at the start: turns of the cam (200) or a time (\"30 s\") (default: 20 s)");
-    app.option("--duration", &args.duration, "T", "Averaging time (default: 100 s)");
-    app.option("--blocks", &args.request.blocks, "N",
-               "Number of blocks of that time; their scatter gives the error (default: 20)")
-        .range(2, 1000);
+    add_option(app, "--duration", args.duration, "T", "Averaging time (default: 100 s)");
+    within(add_option(app, "--blocks", args.request.blocks, "N",
+                      "Number of blocks of that time; their scatter gives the error (default: 20)"),
+           2, 1000);
 }
 
 }  // namespace beamcam::scenes

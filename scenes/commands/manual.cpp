@@ -1,4 +1,4 @@
-// `beamcam manual`: the manual page, made from the grammar.
+// `beamcam manual`: the manual page, made from the parser.
 #include <fmt/format.h>
 
 #include <string>
@@ -10,7 +10,7 @@ namespace beamcam::scenes {
 namespace {
 
 struct ManualArguments {
-    const Grammar* grammar = nullptr;
+    const Program* program = nullptr;
 };
 
 // Text for troff: literal backslashes and hyphens, no line that begins like a request.
@@ -29,20 +29,21 @@ std::string escaped_for_roff(const std::string& text) {
     return out;
 }
 
-std::string parameter_entry(const Parameter& p) {
-    std::string head = fmt::format("\\f{}{}\\fR", p.is_option() ? 'B' : 'I', escaped_for_roff(p.names));
-    if (!p.value.empty()) head += fmt::format(" \\fI{}\\fR", escaped_for_roff(p.value));
-    return fmt::format(".TP\n{}\n{}\n", head, escaped_for_roff(help_of(p)));
+std::string option_entry(const CLI::Option& option, const HelpFormatter& help) {
+    const bool positional = option.get_positional();
+    std::string head = fmt::format("\\f{}{}\\fR", positional ? 'I' : 'B',
+                                   escaped_for_roff(positional ? option.get_name() : option.get_name(false, true)));
+    if (!positional && !option.get_type_name().empty())
+        head += fmt::format(" \\fI{}\\fR", escaped_for_roff(option.get_type_name()));
+    return fmt::format(".TP\n{}\n{}\n", head, escaped_for_roff(help.meaning_of(&option)));
 }
 
-std::string command_section(const Command& command) {
-    std::string text =
-        fmt::format(".SS beamcam {}\n{}\n", escaped_for_roff(command.name), escaped_for_roff(command.summary));
-    for (const Parameter& parameter : command.parameters) text += parameter_entry(parameter);
-    for (const std::string& example : command.examples)
-        text += fmt::format(".PP\n.RS\nbeamcam {}\n.RE\n", escaped_for_roff(example));
-    if (!command.footer.empty()) text += fmt::format(".PP\n{}\n", escaped_for_roff(command.footer));
-    return text;
+std::string command_section(const CLI::App& command, const HelpFormatter& help) {
+    std::string text = fmt::format(".SS beamcam {}\n{}\n", escaped_for_roff(command.get_name()),
+                                   escaped_for_roff(command.get_description()));
+    for (const CLI::Option* option : options_of(command)) text += option_entry(*option, help);
+    const std::string footer = command.get_footer();  // examples and notes, then the exit codes
+    return fmt::format("{}.PP\n.nf\n{}\n.fi\n", text, escaped_for_roff(footer.substr(0, footer.find("Exit codes:"))));
 }
 
 constexpr const char* kEnvironment = R"(.TP
@@ -67,9 +68,9 @@ void act(const ManualArguments& args) {
     text += ".SH NAME\nbeamcam \\- simulates and films a flexible beam that strikes a turning cam\n";
     text += ".SH SYNOPSIS\n\\fBbeamcam\\fR \\fICOMMAND\\fR [\\fIOPTION\\fR]...\n";
     text += fmt::format(".SH DESCRIPTION\n{}\nEvery key of a scene is explained by \\fBbeamcam keys\\fR.\n",
-                        escaped_for_roff(Grammar::kSummary));
+                        escaped_for_roff(args.program->app.get_description()));
     text += ".SH COMMANDS\n";
-    for (const Command& command : args.grammar->commands) text += command_section(command);
+    for (const CLI::App* command : commands_of(*args.program)) text += command_section(*command, *args.program->help);
     text += ".SH EXIT STATUS\n";
     for (const auto& [code, meaning] : kExitCodes) text += fmt::format(".TP\n{}\n{}\n", int(code), meaning);
     text += fmt::format(".SH ENVIRONMENT\n{}.SH EXAMPLES\n{}", kEnvironment, kExamples);
@@ -78,9 +79,9 @@ void act(const ManualArguments& args) {
 
 }  // namespace
 
-void add_manual(Grammar& grammar) {
-    grammar.command<ManualArguments>("manual", "Print the manual page, for `man -l -`", act).arguments.grammar =
-        &grammar;
+void add_manual(Program& program) {
+    add_command<ManualArguments>(program, "manual", "Print the manual page, for `man -l -`", act).arguments.program =
+        &program;
 }
 
 }  // namespace beamcam::scenes

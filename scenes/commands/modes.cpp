@@ -57,15 +57,15 @@ void act(const ModesArguments& args) {
 
 }  // namespace
 
-void add_modes(Grammar& grammar) {
-    const auto [app, args] = grammar.command<ModesArguments>(
-        "modes", "Print the natural frequencies of the beam on its hub, at rest or rotating", act);
-    app.examples = {"modes fall.json", "modes fall.json --speed 300rpm --json"};
+void add_modes(Program& program) {
+    const auto [app, args] = add_command<ModesArguments>(
+        program, "modes", "Print the natural frequencies of the beam on its hub, at rest or rotating", act);
+    add_examples(app, {"modes fall.json", "modes fall.json --speed 300rpm --json"});
     add_scene(app, args.scene, args.common);
-    app.option("--speed", &args.speed, "RAD_S",
+    add_option(app, "--speed", args.speed, "RAD_S",
                "Clamp the beam to a hub that rotates at this speed, for example 300rpm (default: a free hub at rest)");
-    app.flag("--json", args.common.json,
-             "Print JSON, with mass-normalized mode shapes (tip positive) and their coordinates q");
+    app.add_flag("--json", args.common.json,
+                 "Print JSON, with mass-normalized mode shapes (tip positive) and their coordinates q");
 }
 
 }  // namespace beamcam::scenes

@@ -287,51 +287,54 @@ int act(const OrbitsArguments& args) {
 
 }  // namespace
 
-void add_orbits(Grammar& grammar) {
-    const auto [app, args] = grammar.command<OrbitsArguments>(
-        "orbits", "Find periodic orbits and their stability, and follow them over a parameter", act);
-    app.examples = {"orbits pressed.json --turns 1",
-                    "orbits pressed.json --over cam.speed=40:60 -o branches.pdf -o branches.json"};
-    app.footer =
+void add_orbits(Program& program) {
+    const auto [app, args] = add_command<OrbitsArguments>(
+        program, "orbits", "Find periodic orbits and their stability, and follow them over a parameter", act);
+    add_examples(app, {"orbits pressed.json --turns 1",
+                       "orbits pressed.json --over cam.speed=40:60 -o branches.pdf -o branches.json"});
+    add_note(
+        app,
         "`beamcam init --from pressed` writes the scene of the examples. The exit code is 4 if no orbit is found, or "
-        "if none can be followed, and 3 if only the picture is missing: of orbits without impacts there is none.";
+        "if none can be followed, and 3 if only the picture is missing: of orbits without impacts there is none.");
     add_scene(app, args.scene, args.common);
     add_result_options(
         app, args.files, args.common,
         "Write the result, too: .json, .csv, .npz or .nc, or a branch diagram as .png, .svg or .pdf (repeatable)");
-    app.option(
-        "--over", &args.over, "KEY=FROM:TO",
+    add_option(
+        app, "--over", args.over, "KEY=FROM:TO",
         fmt::format("Follow the orbits found at the start, stable or not, at most {}, over this key of the scene, "
                     "also through folds, for example cam.speed=40:60. A branch ends when its motions have taken "
                     "about solver.max_steps steps in one direction",
                     kMostFollowed));
-    app.option("--at", &args.at, "VALUE",
+    add_option(app, "--at", args.at, "VALUE",
                "Start value in that range, with or without a unit (default: the scene's value, or the middle)");
-    app.option("--turns", &args.search.turns, "N",
+    within(add_option(
+               app, "--turns", args.search.turns, "N",
                "Period of the orbit in turns of the cam (default: the shortest of the motion). Orbits of several turns "
-               "beside the motion, such as coexisting ones, are found with this option only")
-        .range(1, 1000);
-    app.option("--most-turns", &args.search.most_turns, "N", "Longest period to try without --turns (default: 8)")
-        .range(1, 1000);
-    app.option("--impacts", &args.impacts, "M", "Number of impacts of the orbit in a period (default: any)")
-        .range(0, 100000);
-    app.option("--transient", &args.transient, "T",
+               "beside the motion, such as coexisting ones, are found with this option only"),
+           1, 1000);
+    within(add_option(app, "--most-turns", args.search.most_turns, "N",
+                      "Longest period to try without --turns (default: 8)"),
+           1, 1000);
+    within(add_option(app, "--impacts", args.impacts, "M", "Number of impacts of the orbit in a period (default: any)"),
+           0, 100000);
+    add_option(app, "--transient", args.transient, "T",
                "Time left out before the search: turns of the cam (200) or a time (\"30 s\") (default: 20 s)");
-    app.option("--doublings", &args.branches.doublings, "K",
-               "Number of successive period doublings to follow (default: 0)")
-        .range(0, 20);
-    app.option("--step", &args.branches.step, "SHARE",
-               "Longest step along a branch, as a share of the range (default: 0.01)")
-        .range(1e-6, 0.5);
-    app.option("--most-points", &args.branches.most_points, "N",
-               "Largest number of points of a branch in each direction (default: 2000)")
-        .range(1, 1000000);
-    app.option("--sweep", &args.sweep_file, "FILE",
+    within(add_option(app, "--doublings", args.branches.doublings, "K",
+                      "Number of successive period doublings to follow (default: 0)"),
+           0, 20);
+    within(add_option(app, "--step", args.branches.step, "SHARE",
+                      "Longest step along a branch, as a share of the range (default: 0.01)"),
+           1e-6, 0.5);
+    within(add_option(app, "--most-points", args.branches.most_points, "N",
+                      "Largest number of points of a branch in each direction (default: 2000)"),
+           1, 1000000);
+    add_option(app, "--sweep", args.sweep_file, "FILE",
                "Draw the impacts of a sweep over the same key (.csv or .npz) below the branches");
-    app.option("--row", &args.row, "K",
-               "Start from row K of the table of --sweep: its state and the values of its swept keys")
-        .range(1, 1000000000);
-    app.option("--scene", &args.scene_file, "FILE.json",
+    within(add_option(app, "--row", args.row, "K",
+                      "Start from row K of the table of --sweep: its state and the values of its swept keys"),
+           1, 1000000000);
+    add_option(app, "--scene", args.scene_file, "FILE.json",
                "Write a scene that begins on the first orbit, with a looping film of one period");
 }
 

@@ -19,13 +19,13 @@ int act(const PlanArguments& args) {
 
 }  // namespace
 
-void add_plan(Grammar& grammar) {
+void add_plan(Program& program) {
     const auto [app, args] =
-        grammar.command<PlanArguments>("plan", "List the motions and files of a run, and what it would keep", act);
-    app.examples = {"plan fall.json", "plan fall.json --force"};
+        add_command<PlanArguments>(program, "plan", "List the motions and files of a run, and what it would keep", act);
+    add_examples(app, {"plan fall.json", "plan fall.json --force"});
     add_scenes(app, args.scenes, args.common);
-    app.option("-o,--output", &args.directory, "DIR", "Directory for the outputs (default: the current one)");
-    app.flag("--force", args.common.force, "Plan as if no output existed");
+    add_option(app, "-o,--output", args.directory, "DIR", "Directory for the outputs (default: the current one)");
+    app.add_flag("--force", args.common.force, "Plan as if no output existed");
     add_json(app, args.common);
 }
 

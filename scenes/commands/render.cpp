@@ -7,6 +7,7 @@
 
 #include "output/json/tree.hpp"
 #include "scenes/commands/key_options.hpp"
+#include "scenes/format/checks.hpp"
 #include "scenes/format/keys.hpp"
 #include "scenes/outputs/picture_keys.hpp"
 #include "scenes/outputs/run.hpp"
@@ -113,7 +114,7 @@ void compare_scenes(const RenderArguments& args, Scene& scene, Picture& picture)
     };
     const std::size_t motions = args.others.size() + 1;
     if (motions == 1) return;
-    if (motions > 8) throw UsageError("render: a picture compares at most eight scenes");
+    if (motions > kMostCompared) throw UsageError("render: a picture compares at most eight scenes");
     const std::string* comparison = args.film.value("--comparison");
     const bool ghosts = comparison ? *comparison == "ghosts" : picture.comparison == render::Comparison::ghosts;
     if (picture.layout && !ghosts && !shows_motions(*picture.layout, motions)) {
@@ -154,7 +155,7 @@ void act(const RenderArguments& args) {
     run_or_plan({&scene, 1}, run_options(args.common, ""), args.common);
 }
 
-void add_key_options(Command& app, RenderArguments& args) {
+void add_key_options(CLI::App& app, RenderArguments& args) {
     args.still.add(app, "--at", "at", "T", "Make one picture.");
     args.film.add(app, "--from", "from", "T");
     args.film.add(app, "--to", "to", "T");
@@ -178,23 +179,24 @@ void add_key_options(Command& app, RenderArguments& args) {
 
 }  // namespace
 
-void add_render(Grammar& grammar) {
-    const auto [app, args] = grammar.command<RenderArguments>(
-        "render", "Make one film, picture sequence, still picture or page of a scene", act);
-    app.examples = {"render fall.json -o fall.mp4 --size 1280x720 --to 0.4 --speed impacts",
-                    "render fall.json -o touch.png --at impact:1", "render slow.json fast.json -o both.mp4 --to 0.5"};
+void add_render(Program& program) {
+    const auto [app, args] = add_command<RenderArguments>(
+        program, "render", "Make one film, picture sequence, still picture or page of a scene", act);
+    add_examples(app,
+                 {"render fall.json -o fall.mp4 --size 1280x720 --to 0.4 --speed impacts",
+                  "render fall.json -o touch.png --at impact:1", "render slow.json fast.json -o both.mp4 --to 0.5"});
     add_scene(app, args.scene, args.common);
-    app.positional("OTHERS", &args.others, "Further scenes, compared with the first in one picture");
-    app.option(
-           "-o,--output", &args.file, "FILE",
-           "File to make. The ending chooses the kind: film (.mp4 .webm .mov .mkv .gif .webp), sequence of pictures "
-           "(name-####.png), still picture (.png, or .pdf .svg in vector graphics, with --at), page that plays the "
-           "motion (.html)")
-        .required();
-    app.option("--title", &args.title, "TEXT", "Title of the picture");
+    app.add_option("OTHERS", args.others, "Further scenes, compared with the first in one picture");
+    add_option(
+        app, "-o,--output", args.file, "FILE",
+        "File to make. The ending chooses the kind: film (.mp4 .webm .mov .mkv .gif .webp), sequence of pictures "
+        "(name-####.png), still picture (.png, or .pdf .svg in vector graphics, with --at), page that plays the "
+        "motion (.html)")
+        ->required();
+    add_option(app, "--title", args.title, "TEXT", "Title of the picture");
     add_key_options(app, args);
     add_work(app, args.common);
-    app.footer = "Other properties are those of the first film, sequence or still picture of the scene.";
+    add_note(app, "Other properties are those of the first film, sequence or still picture of the scene.");
 }
 
 }  // namespace beamcam::scenes

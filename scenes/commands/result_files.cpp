@@ -51,8 +51,8 @@ output::FileTarget target_of(const std::string& file, const Scene& scene, output
     return file_list.target(file, {.inputs = {}, .version = std::string(kVersion), .scene = to_json(shown)});
 }
 
-void add_result_options(Command& app, ResultFiles& files, Common& common, const char* what) {
-    app.option("-o,--output", &files.names, "FILE", what);
+void add_result_options(CLI::App& app, ResultFiles& files, Common& common, const char* what) {
+    add_option(app, "-o,--output", files.names, "FILE", what);
     add_column(app, files.column);
     add_lang(app, files.lang);
     add_progress(app, common);

@@ -27,7 +27,7 @@ struct Result {
 };
 
 // `what`: help of -o.
-void add_result_options(Command& app, ResultFiles& files, Common& common, const char* what);
+void add_result_options(CLI::App& app, ResultFiles& files, Common& common, const char* what);
 
 // To be called before any work. Throws UsageError for other endings, WouldOverwrite, IoError where a file cannot be
 // written.

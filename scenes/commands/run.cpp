@@ -21,14 +21,14 @@ int act(const RunArguments& args) {
 
 }  // namespace
 
-void add_run(Grammar& grammar) {
-    const auto [app, args] = grammar.command<RunArguments>(
-        "run", "Make all outputs that scenes list; of a scene without outputs, a film", act);
-    app.examples = {"run fall.json -o out", "run *.json -n"};
+void add_run(Program& program) {
+    const auto [app, args] = add_command<RunArguments>(
+        program, "run", "Make all outputs that scenes list; of a scene without outputs, a film", act);
+    add_examples(app, {"run fall.json -o out", "run *.json -n"});
     add_scenes(app, args.scenes, args.common);
-    app.option("-o,--output", &args.directory, "DIR", "Directory for the outputs (default: the current one)");
+    add_option(app, "-o,--output", args.directory, "DIR", "Directory for the outputs (default: the current one)");
     add_work(app, args.common);
-    app.footer = "Scenes with the same mechanics are simulated once.";
+    add_note(app, "Scenes with the same mechanics are simulated once.");
 }
 
 }  // namespace beamcam::scenes

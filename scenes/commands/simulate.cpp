@@ -93,29 +93,30 @@ void act(const SimulateArguments& args) {
 
 }  // namespace
 
-void add_simulate(Grammar& grammar) {
-    const auto [app, args] = grammar.command<SimulateArguments>(
-        "simulate", "Compute a motion without pictures; without options, print the summary", act);
-    app.examples = {"simulate fall.json --trajectory fall.csv --channels theta,contact_force --rate 500",
-                    "simulate fall.json --impacts impacts.json --summary -",
-                    "simulate fall.json --state-at 0.45 -o later.json"};
+void add_simulate(Program& program) {
+    const auto [app, args] = add_command<SimulateArguments>(
+        program, "simulate", "Compute a motion without pictures; without options, print the summary", act);
+    add_examples(app, {"simulate fall.json --trajectory fall.csv --channels theta,contact_force --rate 500",
+                       "simulate fall.json --impacts impacts.json --summary -",
+                       "simulate fall.json --state-at 0.45 -o later.json"});
     add_scene(app, args.scene, args.common);
-    app.option("--trajectory", &args.trajectory, "FILE",
+    add_option(app, "--trajectory", args.trajectory, "FILE",
                "Table of channels against time, .csv or .npz; - is standard output (CSV)");
-    app.option("--shapes", &args.shapes, "FILE", "Deflection along the beam against time, .csv or .npz");
+    add_option(app, "--shapes", args.shapes, "FILE", "Deflection along the beam against time, .csv or .npz");
     args.rate.add(app, "--rate", "rate", "HZ", "Of --trajectory (default: adaptive) and --shapes (default: 1000).");
     args.times.add_list(app, "--times", "times", "T,T,...", "In place of --rate.");
     args.channels.add_list(app, "--channels", "channels", "CHANNEL,...",
                            "Of --trajectory, and of --summary those with extrema.");
-    app.option("--impacts", &args.impacts, "FILE",
+    add_option(app, "--impacts", args.impacts, "FILE",
                "Impacts and collisions, .json or .csv; - is standard output (JSON)");
     args.state_at.add(app, "--state-at", "at", "T", "Write a scene that continues the motion.");
-    app.option("-o,--output", &args.state, "FILE", "File of --state-at, .json (default: standard output)");
-    app.option("--summary", &args.summary, "FILE",
+    add_option(app, "-o,--output", args.state, "FILE", "File of --state-at, .json (default: standard output)");
+    add_option(app, "--summary", args.summary, "FILE",
                "Counts, extreme values and energy balance, .json; - is standard output");
-    app.flag("--horizon", args.horizon,
-             "Add to the summary the intervals in which the motion is reproducible; this takes a second run, with a "
-             "tighter tolerance and with another method");
+    app.add_flag(
+        "--horizon", args.horizon,
+        "Add to the summary the intervals in which the motion is reproducible; this takes a second run, with a "
+        "tighter tolerance and with another method");
     add_work(app, args.common);
 }
 

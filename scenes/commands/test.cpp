@@ -101,29 +101,28 @@ int act(const TestArguments& args) {
 
 }  // namespace
 
-void add_test(Grammar& grammar) {
-    const auto [app, args] = grammar.command<TestArguments>("test",
-                                                            "Run a regression test of pictures and motions; exit code "
-                                                            "7 if any entry differs, 3, 5 or 6 if any could not run",
-                                                            act);
-    app.examples = {"test baselines.json --report report", "test baselines.json --update 'fall-*'"};
-    app.positional("BASELINES", &args.baselines, "The file of baselines, JSON; - is standard input").required();
-    app.option("--filter,--only", &args.test.only, "NAME...",
-               "Test only these entries; patterns such as 'fall-*' are allowed")
-        .several();
-    app.option("--update", &args.test.update, "NAME...",
-               "Replace the references of these entries by the present pictures and motions (exit code 7 if that "
-               "changes any); patterns, all and failed are allowed (without NAME: all)")
-        .several()
-        .alone("all");
-    app.flag("--strict", args.test.rule.strict, "Fail entries that are only equivalent");
-    app.option("--tolerance", &args.tolerance, "KEY=X,...",
-               "Tolerances that replace those of the file: channel=2, share=1e-4, ssim=0.97, motion=2e-5, impacts=1e-4 "
-               "(repeatable)")
-        .separated_by(',');
-    app.option("--report", &args.report, "DIR",
+void add_test(Program& program) {
+    const auto [app, args] = add_command<TestArguments>(program, "test",
+                                                        "Run a regression test of pictures and motions; exit code "
+                                                        "7 if any entry differs, 3, 5 or 6 if any could not run",
+                                                        act);
+    add_examples(app, {"test baselines.json --report report", "test baselines.json --update 'fall-*'"});
+    app.add_option("BASELINES", args.baselines, "The file of baselines, JSON; - is standard input")->required();
+    app.add_option("--filter,--only", args.test.only, "Test only these entries; patterns such as 'fall-*' are allowed")
+        ->type_name("NAME...");
+    app.add_option("--update", args.test.update,
+                   "Replace the references of these entries by the present pictures and motions (exit code 7 if that "
+                   "changes any); patterns, all and failed are allowed (without NAME: all)")
+        ->type_name("NAME...")
+        ->expected(0, CLI::detail::expected_max_vector_size)
+        ->default_str("all");
+    app.add_flag("--strict", args.test.rule.strict, "Fail entries that are only equivalent");
+    add_list(app, "--tolerance", args.tolerance, "KEY=X,...",
+             "Tolerances that replace those of the file: channel=2, share=1e-4, ssim=0.97, motion=2e-5, impacts=1e-4 "
+             "(repeatable)");
+    add_option(app, "--report", args.report, "DIR",
                "Directory for an HTML page with actual, expected and difference pictures");
-    app.option("--junit", &args.junit, "FILE", "Write a JUnit report, .xml");
+    add_option(app, "--junit", args.junit, "FILE", "Write a JUnit report, .xml");
     add_jobs(app, args.common, "Largest number of threads that draw");
     add_progress(app, args.common);
     add_json(app, args.common);

@@ -108,8 +108,8 @@ std::optional<std::vector<double>> ObjectReader::column_value(const Node& node, 
     for (const auto& [name, stated] : columns_.value_or(ColumnsFile{}).units)
         if (name == column.second) own_unit = stated;
     FileColumn read = read_file_column(folder / column.first, column.second, unit.resolved(), false, own_unit);
-    if (same(unit.resolved(), dimension::kAngle) && first_wrap(read.values, kFullTurn)) {
-        unwrap(read.values, kFullTurn);
+    if (same(unit.resolved(), dimension::kAngle) && first_wrap(read.values)) {
+        unwrap(read.values);
         if (!columns_)  // the angles of an outline go round once, and may begin anywhere
             warn(key,
                  ": the column {} jumps by more than half a turn; it is read as an angle that begins again after "

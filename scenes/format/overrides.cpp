@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+
+#include "output/files/numbers.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -60,6 +63,13 @@ void apply_override(Node& root, const std::string& text, std::size_t source, std
     if (!parse_value(std::string_view(text).substr(equals + 1), value, problem)) return error(problem);
     move_to(value, place);
     set_value(root, std::string_view(text).substr(0, equals), std::move(value), messages);
+}
+
+Node value_node(const std::string& text) {
+    const auto number = output::number_in<double>(text);
+    Node node = number && std::isfinite(*number) ? Node(*number) : Node(text);
+    node.text = text;  // as it was written, for messages
+    return node;
 }
 
 void set_value(Node& root, std::string_view path, Node value, std::vector<Message>& messages) {

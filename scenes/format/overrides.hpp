@@ -16,6 +16,9 @@ std::string problem_with_override(const std::string& text);
 // array's entry, from 0. `source`: index that the positions carry. An error goes to `messages` and changes nothing.
 void apply_override(Node& root, const std::string& text, std::size_t source, std::vector<Message>& messages);
 
+// A number if the text is one, else the text itself, which may have a unit.
+Node value_node(const std::string& text);
+
 // Puts `value` at the path and creates missing objects. Errors have the position of `value`.
 void set_value(Node& root, std::string_view path, Node value, std::vector<Message>& messages);
 

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <map>
 #include <set>
 
 #include "render/film/layout.hpp"
@@ -18,7 +17,7 @@ constexpr const char* kDefinitions = R"({
     "withUnit": {
         "description": "A number and a unit: \"12 mm\", \"300 rpm\", \"2.7 g/cm^3\".",
         "type": "string",
-        "pattern": "^ *[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)? *([a-zA-Z°%µμ(]| 1/).*$"
+        "pattern": "^ *[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)? *([a-zA-Z°%µμ]| 1/).*$"
     },
     "percentage": {
         "description": "A plain number as text, or a percentage: \"5 %\".",
@@ -77,8 +76,6 @@ class SchemaWriter {
         add(definitions_, "instant", instant_schema());
         add(definitions_, "panelName", panel_schema());
         add(definitions_, "channel", channel_schema());
-        object(format);  // first pass: counts repeated properties
-        counted_ = true;
         Node out = object_node({{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", title}});
         append(out, object(format));
         std::set<std::string> used;
@@ -105,14 +102,13 @@ class SchemaWriter {
     }
 
     Node object(const DescribedObject& shape) {
-        ++depth_;
         Node properties = object_node(), needed = array_node();
         for (const auto& [tag, word] : shape.tags) {
             add(properties, tag, object_node({{"const", word}}));
             if (shape.explicit_tags) needed.items.emplace_back(tag);
         }
         for (const DescribedKey& key : shape.keys) {
-            add(properties, key.name, shared(key.name, property(key)));
+            add(properties, key.name, property(key));
             if (key.required()) needed.items.emplace_back(key.name);
         }
         Node out = object_node({{"description", shape.meaning},
@@ -127,7 +123,6 @@ class SchemaWriter {
             if (known.find(one) && known.find(other))
                 together.push_back(node_of(fmt::format(R"({{"required": ["{}", "{}"]}})", one, other)));
         if (!together.empty()) add(out, "not", one_of("anyOf", std::move(together)));
-        --depth_;
         return out;
     }
 
@@ -180,21 +175,7 @@ class SchemaWriter {
         return out;
     }
 
-    // A large property that occurs several times becomes a definition with the name of its key.
-    Node shared(const std::string& name, Node property) {
-        constexpr std::size_t kLarge = 300;  // [bytes]
-        const std::string text = to_text(property);
-        if (depth_ != 2 || text.size() < kLarge) return property;
-        if (!counted_) ++seen_[text];
-        if (!counted_ || seen_[text] == 1) return property;
-        if (!definitions_.find(name)) add(definitions_, name, std::move(property));
-        return reference(name);
-    }
-
     Node definitions_;
-    int depth_ = 0;                    // of nested objects
-    std::map<std::string, int> seen_;  // occurrences of a property, by its text
-    bool counted_ = false;
 };
 
 }  // namespace

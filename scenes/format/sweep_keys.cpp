@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "output/files/numbers.hpp"
 #include "scenes/format/file_column.hpp"
 #include "scenes/format/keys.hpp"
 #include "scenes/format/object_reader.hpp"
+#include "scenes/format/overrides.hpp"
 #include "scenes/format/suggest.hpp"
 #include "scenes/format/value_formats.hpp"
 #include "sim/orbit/exponents.hpp"
@@ -19,6 +19,7 @@ namespace beamcam::scenes {
 namespace dim = sim::dimension;
 using sim::SampleKind;
 
+static constexpr int kMostValues = 100'000'000, kMostRandom = 1'000'000;
 // More turns than an integration can reach.
 static constexpr sim::Range kTurns{0, 1e9, false, false, nullptr};
 
@@ -42,11 +43,39 @@ static void visit(SceneVisitor& v, RandomKey& key) {
     v.value("to", quantity_format(key.to, dimension_of(key.key)), "Highest value.");
 }
 
+// Replaces the file and column of a key by the values of the column, in SI units if the file states another unit.
+static void read_column(ObjectReader& r, SweptKey& over) {
+    if (over.file.empty() || over.column.empty() || r.diagnostics().failed(r.path("file"))) return;
+    const std::filesystem::path folder = std::filesystem::path(r.context().source.name).parent_path();
+    FileColumn read =
+        read_file_column(folder / over.file, over.column, dimension_of(over.key)(r).value_or(dim::kNone), true);
+    if (!read.problem.empty()) return r.reject("file", ": {}", read.problem);
+    over.values = std::move(read.values);
+    over.file.clear(), over.column.clear();
+}
+
+// Replaces the step of a range by the number of its values.
+static void count_steps(ObjectReader& r, SweptKey& over) {
+    if (!over.step || !over.from || !over.to) return;
+    if (over.logarithmic) return r.reject("step", ": logarithmic spacing needs a \"count\"");
+    const double step = *std::exchange(over.step, {}),
+                 count = 1 + std::floor((*over.to - *over.from) / step * (1 + 1e-12) + 1e-9);
+    if (count > kMostValues && std::isfinite(count))
+        return r.reject("step", ": {:.4g} values are too many; a key has at most {:g}", count, double(kMostValues));
+    if (!(count >= 2 && count <= kMostValues))  // a step within the range leads to a second value
+        return r.reject("step", " = {:g} is not a step from {:g} to {:g}", step, *over.from, *over.to);
+    over.to = *over.from + (count - 1) * step;
+    over.count = static_cast<int>(count);
+}
+
 static void visit(SceneVisitor& v, SweptKey& over) {
     v.text(sim::required("key", "\"cam.speed\""), over.key, "A key of the scene that is a number.");
     v.value("from", quantity_format(over.from, dimension_of(over.key)), "First value.");
     v.value("to", quantity_format(over.to, dimension_of(over.key)), "Last value.");
-    v.integer("count", over.count, 1, 100'000'000, "Number of values, both ends included.");
+    v.integer("count", over.count, 1, kMostValues, "Number of values, both ends included.");
+    v.value(sim::written_if(false, "step"), quantity_format(over.step, dimension_of(over.key)),
+            "Distance of the values in place of their number; \"to\" is the last one if it is a whole number of steps "
+            "away.");
     v.choice("spacing", over.logarithmic, {{false, "linear"}, {true, "log"}},
              "Spacing of the values between the ends.");
     v.value("values", quantities_format(over.values, dimension_of(over.key), 1), "A list of values.");
@@ -56,42 +85,22 @@ static void visit(SceneVisitor& v, SweptKey& over) {
     v.exclusive("from", "values");
     v.exclusive("from", "file");
     v.exclusive("values", "file");
+    v.exclusive("count", "step");
     v.check([&over](ObjectReader& r) {
-        if (over.file.empty() || over.column.empty() || r.diagnostics().failed(r.path("file"))) return;
-        const std::filesystem::path folder = std::filesystem::path(r.context().source.name).parent_path();
-        r.reject_if("file", read_column(over, folder, r.context().scene.problem));
+        read_column(r, over);
+        count_steps(r, over);
     });
 }
 
 namespace {
 
-constexpr int kMostRandom = 1'000'000;
-std::string set_section(std::string_view channel, sim::Sampling& sampling, const sim::Problem& problem) {
-    const std::vector<std::string> known = channel_names(all_channels(problem));
+void set_section(ObjectReader& r, const std::string& channel, sim::Sampling& sampling) {
+    const std::vector<std::string> known = channel_names(all_channels(r.context().scene.problem));
     if (std::ranges::find(known, channel) == known.end())
-        return fmt::format("{} is not a channel of this scene{}", in_quotes(channel),
-                           suggestion_or_list(channel, known));
+        return r.reject("section", ": {} is not a channel of this scene{}", in_quotes(channel),
+                        suggestion_or_list(channel, known));
     sampling.channel = *sim::channel_named(channel);
     sampling.kind = sampling.channel.kind == sim::ChannelKind::cam_angle ? SampleKind::section : SampleKind::crossings;
-    return "";
-}
-
-ValueFormat sample_format(sim::Sampling& sampling) {
-    const auto read = [&sampling](ObjectReader& r, const Node& node, const std::string& key) {
-        if (node.kind != Node::Kind::string)
-            return r.expect(node, key, "\"impacts\", \"apexes\", \"peaks\" or {{\"section\": CHANNEL, \"at\": VALUE}}");
-        if (const std::string problem = parse_sample(node.text, r.context().scene.problem, sampling); !problem.empty())
-            r.reject_value(node, key, ": {}", problem);
-    };
-    const auto write = [&sampling] {
-        const bool is_word = sampling.kind == SampleKind::impacts || sampling.kind == SampleKind::apexes ||
-                             sampling.kind == SampleKind::peaks;
-        return is_word ? Node(text_of_sample(sampling)) : Node();
-    };
-    return {
-        "\"impacts\", \"apexes\", \"peaks\", \"section:CHANNEL=VALUE\" or object",
-        R"({"anyOf": [{"enum": ["impacts", "apexes", "apex", "peaks"]}, {"type": "string", "pattern": "^section:.+=.+$"}]})",
-        read, write};
 }
 
 void visit_section(SceneVisitor& v, sim::Sampling& sampling) {
@@ -108,31 +117,58 @@ void visit_section(SceneVisitor& v, sim::Sampling& sampling) {
             "The value that the channel passes; a plain number is in its SI unit.");
     v.choice("direction", sampling.rising, {{true, "rising"}, {false, "falling"}},
              "Direction in which the channel passes the value; not used for cam_angle.");
-    v.check([&sampling, channel](ObjectReader& r) {
-        r.reject_if("section", set_section(channel, sampling, r.context().scene.problem));
-    });
+    v.check([&sampling, channel](ObjectReader& r) { set_section(r, channel, sampling); });
 }
 
-ValueFormat seed_format(SweepSeeds& seeds) {
-    const auto read = [&seeds](ObjectReader& r, const Node& node, const std::string& key) {
-        std::string text = node.text;  // in the notation of --seed
-        for (const Node& item : node.items) text += (text.empty() ? "" : ",") + item.text;
-        const bool is_list = node.kind == Node::Kind::array && !text.starts_with("random");
-        const std::string problem = node.kind == Node::Kind::string || is_list
-                                        ? parse_seeds(text, seeds)
-                                        : "write \"same\", \"carry-up\", \"carry-down\" or \"random:N\"";
-        if (!problem.empty()) r.reject_value(node, key, ": {}", problem);
+// The object that "section:theta_dot=0:falling" abbreviates.
+Node section_node(std::string_view text) {
+    const std::size_t colon = text.find(':'), equals = std::min(text.find('='), text.size());
+    const std::size_t end = std::min(text.find(':', equals), text.size());
+    Node out = object_node({{"section", std::string(text.substr(colon + 1, equals - colon - 1))}});
+    if (equals < end) add(out, "at", value_node(std::string(text.substr(equals + 1, end - equals - 1))));
+    if (end < text.size()) add(out, "direction", std::string(text.substr(end + 1)));
+    return out;
+}
+
+// The object or list that a text abbreviates: "random:8", "carry-up,carry-down".
+Node seeds_node(std::string_view text) {
+    constexpr std::string_view kRandom = "random:";
+    if (text.starts_with(kRandom))
+        return object_node({{"random", value_node(std::string(text.substr(kRandom.size())))}});
+    return Node(split(text, ','));
+}
+
+// Reads the value that a text abbreviates, an object with these keys.
+void read_abbreviated(ObjectReader& r, const Node& text, const std::string& key, Node object,
+                      const std::function<void(ObjectReader&)>& visit_keys) {
+    move_to(object, text.place);
+    ObjectReader inside = r.inside(object, key);
+    visit_keys(inside);
+    inside.finish();
+}
+
+ValueFormat sample_format(sim::Sampling& sampling) {
+    static constexpr sim::Named<SampleKind> kWords[] = {{SampleKind::impacts, "impacts"},
+                                                        {SampleKind::apexes, "apexes"},
+                                                        {SampleKind::apexes, "apex"},
+                                                        {SampleKind::peaks, "peaks"}};
+    const auto read = [&sampling](ObjectReader& r, const Node& node, const std::string& key) {
+        if (word_in(node).starts_with("section:"))
+            return read_abbreviated(r, node, key, section_node(node.text),
+                                    [&](ObjectReader& inside) { visit_section(inside, sampling); });
+        for (const auto& [kind, word] : kWords)
+            if (word_in(node) == word) return void(sampling.kind = kind);
+        r.reject_value(node, key,
+                       "; write impacts, apexes, peaks, or section:CHANNEL=VALUE, for example section:cam_angle=0");
     };
-    const auto write = [&seeds]() -> Node {
-        if (seeds.random > 0) return {};
-        if (seeds.kinds.size() == 1) return name(seeds.kinds.front());
-        return array_node(seeds.kinds, [](SeedKind kind) { return name(kind); });
+    const auto write = [&sampling] {
+        const auto word = std::ranges::find(kWords, sampling.kind, &sim::Named<SampleKind>::value);
+        return word == std::end(kWords) ? Node() : Node(word->name);
     };
-    return {"\"same\", \"carry-up\", \"carry-down\", several of them, \"random:N\", or object",
-            R"({"anyOf": [{"enum": ["same", "carry-up", "carry-down", "carry-up,carry-down"]}, )"
-            R"({"type": "string", "pattern": "^random:[1-9][0-9]*$"}, {"type": "array", "minItems": 1, )"
-            R"("uniqueItems": true, "items": {"enum": ["same", "carry-up", "carry-down"]}}]})",
-            read, write};
+    return {
+        "\"impacts\", \"apexes\", \"peaks\", \"section:CHANNEL=VALUE\" or object",
+        R"({"anyOf": [{"enum": ["impacts", "apexes", "apex", "peaks"]}, {"type": "string", "pattern": "^section:.+=.+$"}]})",
+        read, write};
 }
 
 void visit_random(SceneVisitor& v, SweepSeeds& seeds) {
@@ -146,8 +182,84 @@ void visit_random(SceneVisitor& v, SweepSeeds& seeds) {
     v.check([&seeds](ObjectReader&) { seeds.kinds = {SeedKind::random}; });
 }
 
+ValueFormat seed_format(SweepSeeds& seeds) {
+    const auto read = [&seeds](ObjectReader& r, const Node& node, const std::string& key) {
+        const Node list = node.kind == Node::Kind::string ? seeds_node(node.text) : node;
+        if (list.kind == Node::Kind::object)
+            return read_abbreviated(r, node, key, list, [&](ObjectReader& inside) { visit_random(inside, seeds); });
+        std::vector<SeedKind> kinds;
+        for (const Node& item : list.items) {
+            const auto found = std::ranges::find(kSeedKinds, word_in(item), &sim::Named<SeedKind>::name);
+            if (found == std::end(kSeedKinds) || found->value == SeedKind::random) break;
+            if (std::ranges::find(kinds, found->value) != kinds.end())
+                return r.reject(key, ": {} is listed twice; remove one of them", item.text);
+            kinds.push_back(found->value);
+        }
+        if (kinds.empty() || kinds.size() < list.items.size())
+            return r.reject_value(node, key,
+                                  "; write \"same\", \"carry-up\", \"carry-down\", several of them, or \"random:N\"");
+        seeds.kinds = std::move(kinds), seeds.random = 0;
+    };
+    const auto write = [&seeds]() -> Node {
+        if (seeds.random > 0) return {};
+        if (seeds.kinds.size() == 1) return name(seeds.kinds.front());
+        return array_node(seeds.kinds, [](SeedKind kind) { return name(kind); });
+    };
+    return {"\"same\", \"carry-up\", \"carry-down\", several of them, \"random:N\", or object",
+            R"({"anyOf": [{"enum": ["same", "carry-up", "carry-down", "carry-up,carry-down"]}, )"
+            R"({"type": "string", "pattern": "^random:[1-9][0-9]*$"}, {"type": "array", "minItems": 1, )"
+            R"("uniqueItems": true, "items": {"enum": ["same", "carry-up", "carry-down"]}}]})",
+            read, write};
+}
+
 bool is_random(const SweepSeeds& seeds) {
     return std::ranges::find(seeds.kinds, SeedKind::random) != seeds.kinds.end();
+}
+
+void check_sweep(ObjectReader& r, const Sweep& sweep) {
+    const sim::Problem& problem = r.context().scene.problem;
+    const auto reject = [&](const std::string& key, const std::string& why) {
+        if (!r.diagnostics().failed(r.path(key))) r.reject(key, ": {}", why);  // else it has an error already
+    };
+    const auto need_key = [&](const std::string& at, const std::string& key) {
+        if (const std::string wrong = problem_with_number_key(problem, key); !wrong.empty()) reject(at, wrong);
+    };
+    if (sweep.over.size() == 2 && sweep.over[0].key == sweep.over[1].key)
+        reject("over.1.key", fmt::format("{} is listed twice; remove one of them", sweep.over[0].key));
+    for (std::size_t i = 0; i < sweep.over.size(); ++i) {
+        const SweptKey& over = sweep.over[i];
+        const std::string at = fmt::format("over.{}", i);
+        need_key(at + ".key", over.key);
+        const bool ranged = over.from && over.to && over.count;
+        const bool partly = over.from || over.to || over.count || over.step;
+        const int ways = int(partly) + int(!over.values.empty()) + int(!over.file.empty());
+        if (ways != 1 || (partly && !ranged))
+            reject(at, "write from, to and count or step; or values; or file and column");
+        else if (ranged && *over.count == 1 && *over.from != *over.to)
+            reject(at + ".count", "one value cannot have two ends; write at least 2, or equal ends");
+        else if (ranged && over.logarithmic && !(*over.from * *over.to > 0))
+            reject(at, "logarithmic spacing needs ends of one sign, neither of them 0");
+        if (over.file.empty() != over.column.empty()) reject(at, "file and column must be given together");
+    }
+    const bool carries = std::ranges::any_of(
+        sweep.seeds.kinds, [](SeedKind kind) { return kind == SeedKind::carry_up || kind == SeedKind::carry_down; });
+    for (const SweptKey& over : sweep.over)
+        if (carries && over.key.starts_with("initial."))
+            reject("seed", fmt::format("a carried motion does not start at {}; use \"same\"", over.key));
+    for (const RandomKey& key : sweep.seeds.keys) {
+        need_key("seed.key", key.key);
+        if (key.from > key.to)
+            reject("seed.key", fmt::format("\"from\" of {} is greater than \"to\"; exchange them", key.key));
+    }
+    if (!sweep.seeds.keys.empty() && !is_random(sweep.seeds))
+        reject("seed.key", "random keys need random starts; add \"random\"");
+    const sim::CamSpan& keep = sweep.sampling.keep;
+    if (!(keep.time.value_or(keep.turns) > 0)) reject("keep", "must be greater than 0");
+    if (!problem.cam && (sweep.sampling.kind == SampleKind::impacts || sweep.sampling.kind == SampleKind::section ||
+                         sweep.sampling.kind == SampleKind::peaks))
+        reject("sample", "there is no cam; use \"apexes\", or add a \"cam\"");
+    if (const auto refusal = sweep.sampling.exponents ? sim::tangent_refusal(problem) : std::nullopt)
+        reject("exponents", *refusal);
 }
 
 }  // namespace
@@ -171,78 +283,26 @@ void visit(SceneVisitor& v, Sweep& sweep) {
             SceneVisitor::keys_of(sweep.seeds, visit_random));
     v.boolean("exponents", sweep.sampling.exponents,
               "Also compute the largest Lyapunov exponent of each motion. Only with it is a class \"chaotic\".");
-    v.check([&sweep](ObjectReader& r) {
-        for (const SweepProblem& problem : problems_of(sweep, r.context().scene.problem))
-            if (!r.diagnostics().failed(r.path(problem.key)))  // else it has an error already
-                r.reject(problem.key, ": {}", problem.text);
-    });
+    v.check([&sweep](ObjectReader& r) { check_sweep(r, sweep); });
 }
 
-std::string parse_sample(std::string_view text, const sim::Problem& problem, sim::Sampling& sampling) {
-    if (text == "impacts" || text == "apexes" || text == "apex") {
-        sampling.kind = text == "impacts" ? SampleKind::impacts : SampleKind::apexes;
-        return "";
-    }
-    if (text == "peaks") {
-        sampling.kind = SampleKind::peaks;
-        return "";
-    }
-    constexpr std::string_view kSection = "section:";
-    const std::size_t equals = text.find('=');
-    if (!text.starts_with(kSection) || equals == std::string_view::npos)
-        return "write impacts, apexes, peaks, or section:CHANNEL=VALUE, for example section:cam_angle=0";
-    std::string_view value = text.substr(equals + 1);
-    if (const std::size_t colon = value.find(':'); colon != std::string_view::npos) {
-        const std::string_view direction = value.substr(colon + 1);
-        if (direction != "rising" && direction != "falling")
-            return "the direction after the second colon is rising or falling";
-        sampling.rising = direction == "rising";
-        value = value.substr(0, colon);
-    }
-    std::string wrong = set_section(text.substr(kSection.size(), equals - kSection.size()), sampling, problem);
-    if (!wrong.empty()) return wrong;
-    const Dimension expected = dimension_of(sampling.channel, problem);
-    const QuantityText level = parse_quantity(value, &expected);
-    if (!level.quantity) return level.problem;
-    if (!same(level.quantity->dimension, expected) && !same(level.quantity->dimension, dimension::kNone))
-        return fmt::format("{} is no value of {}, whose unit is {}", in_quotes(value), name(sampling.channel),
-                           si_unit(expected));
-    sampling.level = level.quantity->value;
-    return "";
+Node sweep_tree(const Scene& scene) {
+    Sweep sweep = scene.sweep.value_or(Sweep{});
+    return tree_of([&sweep](SceneVisitor& v) { visit(v, sweep); });
 }
 
-std::string parse_seeds(std::string_view text, SweepSeeds& seeds) {
-    constexpr std::string_view kRandom = "random:";
-    SweepSeeds read;
-    read.keys = seeds.keys;
-    read.kinds.clear();
-    if (text.starts_with(kRandom)) {
-        const auto count = output::number_in<int>(text.substr(kRandom.size()));
-        if (!count || *count < 1 || *count > kMostRandom)
-            return fmt::format("write random:N with a number of motions from 1 to {}", kMostRandom);
-        read.kinds = {SeedKind::random};
-        read.random = *count;
-    }
-    for (const std::string& word : read.random > 0 ? std::vector<std::string>() : split(text, ',')) {
-        const auto found = std::ranges::find(kSeedKinds, word, &sim::Named<SeedKind>::name);
-        if (found == std::end(kSeedKinds) || found->value == SeedKind::random)
-            return "write same, carry-up, carry-down, carry-up,carry-down, or random:N";
-        if (std::ranges::find(read.kinds, found->value) != read.kinds.end())
-            return fmt::format("{} is listed twice; remove one of them", word);
-        read.kinds.push_back(found->value);
-    }
-    seeds = std::move(read);
-    return "";
-}
-
-std::string read_column(SweptKey& over, const std::filesystem::path& folder, const sim::Problem& problem) {
-    const auto key = sim::number_key(problem, over.key);
-    FileColumn read = read_file_column(folder / over.file, over.column, key ? key->dimension : dim::kNone, true);
-    if (!read.problem.empty()) return read.problem;
-    over.values = std::move(read.values);
-    over.file.clear();
-    over.column.clear();
-    return "";
+std::string read_sweep(const Node& keys, Scene& scene) {
+    std::vector<Message> messages;
+    std::map<std::string, OtherScene> others;
+    const Node root = object_node({{"sweep", keys}});
+    const Source source;
+    const SceneContext context{scene, root, source, others};
+    Sweep sweep;
+    read_object(
+        root, "the options", [&sweep](ObjectReader& r) { r.object("sweep", sweep, ""); }, messages, &context);
+    scene.sweep = std::move(sweep);
+    const auto error = std::ranges::find_if(messages, &Message::fatal);
+    return error == messages.end() ? "" : error->text;
 }
 
 std::string problem_with_number_key(const sim::Problem& problem, const std::string& key) {
@@ -250,52 +310,6 @@ std::string problem_with_number_key(const sim::Problem& problem, const std::stri
     for (const sim::NumberKey& each : sim::number_keys(problem)) known.push_back(each.path);
     if (std::ranges::find(known, key) != known.end()) return "";
     return fmt::format("{} is not a number of this scene{}", in_quotes(key), suggestion_or_list(key, known));
-}
-
-std::vector<SweepProblem> problems_of(const Sweep& sweep, const sim::Problem& problem) {
-    std::vector<SweepProblem> all;
-    const auto need_key = [&](const std::string& at, const std::string& key) {
-        if (std::string wrong = problem_with_number_key(problem, key); !wrong.empty())
-            all.push_back({at, std::move(wrong)});
-    };
-    if (sweep.over.empty()) all.push_back({"over", "no key varies; write for example cam.speed=40:52:0.02"});
-    if (sweep.over.size() > 2) all.push_back({"over", "a sweep varies one or two keys"});
-    if (sweep.over.size() == 2 && sweep.over[0].key == sweep.over[1].key)
-        all.push_back({"over.1.key", fmt::format("{} is listed twice; remove one of them", sweep.over[0].key)});
-    for (std::size_t i = 0; i < sweep.over.size(); ++i) {
-        const SweptKey& over = sweep.over[i];
-        const std::string at = fmt::format("over.{}", i);
-        need_key(at + ".key", over.key);
-        const bool ranged = over.from && over.to && over.count;
-        const int ways = int(over.from || over.to || over.count) + int(!over.values.empty()) + int(!over.file.empty());
-        if (ways != 1 || (over.from && !ranged) || (over.to && !ranged) || (over.count && !ranged))
-            all.push_back({at, "write from, to and count; or values; or file and column"});
-        else if (ranged && *over.count == 1 && *over.from != *over.to)
-            all.push_back({at + ".count", "one value cannot have two ends; write at least 2, or equal ends"});
-        else if (ranged && over.logarithmic && !(*over.from * *over.to > 0))
-            all.push_back({at, "logarithmic spacing needs ends of one sign, neither of them 0"});
-        if (over.file.empty() != over.column.empty()) all.push_back({at, "file and column must be given together"});
-    }
-    const bool carries = std::ranges::any_of(
-        sweep.seeds.kinds, [](SeedKind kind) { return kind == SeedKind::carry_up || kind == SeedKind::carry_down; });
-    for (const SweptKey& over : sweep.over)
-        if (carries && over.key.starts_with("initial."))
-            all.push_back({"seed", fmt::format("a carried motion does not start at {}; use \"same\"", over.key)});
-    for (const RandomKey& key : sweep.seeds.keys) {
-        need_key("seed.key", key.key);
-        if (key.from > key.to)
-            all.push_back({"seed.key", fmt::format("\"from\" of {} is greater than \"to\"; exchange them", key.key)});
-    }
-    if (!sweep.seeds.keys.empty() && !is_random(sweep.seeds))
-        all.push_back({"seed.key", "random keys need random starts; add \"random\""});
-    const sim::CamSpan& keep = sweep.sampling.keep;
-    if (!(keep.time.value_or(keep.turns) > 0)) all.push_back({"keep", "must be greater than 0"});
-    if (!problem.cam && (sweep.sampling.kind == SampleKind::impacts || sweep.sampling.kind == SampleKind::section ||
-                         sweep.sampling.kind == SampleKind::peaks))
-        all.push_back({"sample", "there is no cam; use \"apexes\", or add a \"cam\""});
-    if (const auto refusal = sweep.sampling.exponents ? sim::tangent_refusal(problem) : std::nullopt)
-        all.push_back({"exponents", *refusal});
-    return all;
 }
 
 }  // namespace beamcam::scenes

@@ -1,10 +1,6 @@
 #include "scenes/scene/sweep.hpp"
 
-#include <fmt/format.h>
-
 namespace beamcam::scenes {
-
-using sim::SampleKind;
 
 constexpr double kRandomAngle = 0.3, kRandomRate = 1;  // [rad], [rad/s]
 
@@ -19,23 +15,6 @@ std::vector<SeedKind> starts_of(const SweepSeeds& seeds) {
     for (const SeedKind kind : seeds.kinds)
         all.insert(all.end(), kind == SeedKind::random ? static_cast<std::size_t>(seeds.random) : 1, kind);
     return all;
-}
-
-std::string text_of_sample(const sim::Sampling& sampling) {
-    switch (sampling.kind) {
-        case SampleKind::impacts:
-            return "impacts";
-        case SampleKind::apexes:
-            return "apexes";
-        case SampleKind::peaks:
-            return "peaks";
-        case SampleKind::section:
-            return fmt::format("section:cam_angle={}", sampling.level);
-        case SampleKind::crossings:
-            break;
-    }
-    return fmt::format("section:{}={}:{}", name(sampling.channel), sampling.level,
-                       sampling.rising ? "rising" : "falling");
 }
 
 }  // namespace beamcam::scenes

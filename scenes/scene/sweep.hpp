@@ -16,6 +16,7 @@ struct SweptKey {
     std::string key;
     std::optional<double> from, to;  // both ends are values
     std::optional<int> count;
+    std::optional<double> step;  // as written, until the values are counted
     bool logarithmic = false;
     std::vector<double> values;
     std::string file, column;  // as written, until the values are read
@@ -60,6 +61,5 @@ struct Sweep {
 std::vector<RandomKey> random_keys(const Sweep& sweep, const sim::Problem& problem);
 // The starts at one value of the keys, in the order of their points.
 std::vector<SeedKind> starts_of(const SweepSeeds& seeds);
-std::string text_of_sample(const sim::Sampling& sampling);  // in the notation of the key "sample"
 
 }  // namespace beamcam::scenes

@@ -154,27 +154,11 @@ output::SweepData data_of(const SweepGrid& grid, const Shard& shard) {
         data.columns.push_back({info.name, info.unit, info.meaning});
     }
     for (const auto& each : names(sim::AttractorClass{})) data.classes.emplace_back(each.name);
-    std::string seeds;
-    for (std::uint64_t s = 0; s < std::min<std::uint64_t>(grid.seeds(), 16); ++s)
-        seeds += (s > 0 ? "," : "") + std::string(name(grid.seed(s)));
-    const sim::Sampling& sampling = grid.sampling();
-    const auto span = [](const sim::CamSpan& s) {
-        return s.time ? fmt::format("{} s, rounded up to whole turns of the cam", *s.time)
-                      : fmt::format("{} turns of the cam", s.turns);
-    };
-    data.attributes = {
-        {"Conventions", "CF-1.8"},
-        {"source", fmt::format("beamcam {}", kVersion)},
-        {"samples", text_of_sample(sampling)},
-        {"transient", span(sampling.transient)},
-        {"keep", span(sampling.keep)},
-        {"seeds", seeds},
-        {"criteria", "sim/MODEL.md of beamcam, (S86) to (S89)"},
-        {"tolerance", fmt::format("rtol {:g}, atol {:g}; a rigid beam with impulsive contact is followed to rounding",
-                                  grid.scene().problem.solver.rtol, grid.scene().problem.solver.atol)},
-        {"beamcam_scene", to_json(grid.scene())},
-        {"beamcam_program", program_identity()},
-        {"beamcam_sweep", grid.digest()}};
+    data.attributes = {{"Conventions", "CF-1.8"},
+                       {"source", fmt::format("beamcam {}", kVersion)},
+                       {"title", "Sweep"},
+                       {"beamcam_scene", to_json(grid.scene())},
+                       {"beamcam_program", program_identity()}};
     data.head = head_of(grid, shard);
     return data;
 }

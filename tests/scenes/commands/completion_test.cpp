@@ -36,16 +36,15 @@ TEST(Completion, BashOffersCommandsOptionsAndFiles) {
 
 TEST(Completion, EveryShellKnowsEveryCommandAndOption) {
     const Folder folder;
-    Grammar grammar;
-    for (const auto add : kCommands) add(grammar);
+    Program program;
+    for (const auto add : kCommands) add(program);
     for (const std::string name : {"bash", "zsh", "fish"}) {
         const std::string script = shell(folder, "$BEAMCAM completion " + name).out;
-        for (const Command& command : grammar.commands) {
-            EXPECT_THAT(script, HasSubstr(" " + command.name)) << name;
-            for (const Parameter& parameter : command.parameters)
-                if (const std::size_t dashes = parameter.names.rfind("--"); dashes != std::string::npos) {
-                    EXPECT_THAT(script, HasSubstr(" " + parameter.names.substr(dashes))) << name;
-                }
+        for (const CLI::App* command : commands_of(program)) {
+            EXPECT_THAT(script, HasSubstr(" " + command->get_name())) << name;
+            for (const CLI::Option* option : options_of(*command))
+                for (const std::string& dashed : option->get_lnames())
+                    EXPECT_THAT(script, HasSubstr(" --" + dashed)) << name;
         }
         folder.write("script", script);
         if (shell(folder, "command -v " + name).code == 0) {
@@ -59,10 +58,10 @@ TEST(Manual, NamesEveryCommandOptionAndExitCode) {
     const Folder folder;
     const Finished manual = shell(folder, "$BEAMCAM manual");
     ASSERT_EQ(manual.code, 0);
-    Grammar grammar;
-    for (const auto add : kCommands) add(grammar);
-    for (const Command& command : grammar.commands)
-        EXPECT_THAT(manual.out, HasSubstr(".SS beamcam " + command.name + "\n"));
+    Program program;
+    for (const auto add : kCommands) add(program);
+    for (const CLI::App* command : commands_of(program))
+        EXPECT_THAT(manual.out, HasSubstr(".SS beamcam " + command->get_name() + "\n"));
     for (const char* words : {"\\-\\-background", "interrupted", "BEAMCAM_GL"})
         EXPECT_THAT(manual.out, HasSubstr(words));
     if (shell(folder, "command -v groff").code == 0) {

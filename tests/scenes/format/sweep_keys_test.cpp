@@ -54,7 +54,7 @@ TEST(SweepKeys, MeanWhatTheySay) {
     EXPECT_EQ(seeds("random:4"), sweep.seeds);
     EXPECT_THAT(seeds("carry-up,carry-down").kinds, ElementsAre(SeedKind::carry_up, SeedKind::carry_down));
     EXPECT_THAT(read(scene_with(fmt::format(R"({{"over": [{}], "seed": "random:0"}})", kSpeed))).report(),
-                HasSubstr("random:N"));
+                HasSubstr("sweep.seed.random = 0 is outside 1"));
     const Sweep units =
         *read(scene_with(R"({"over": [{"key": "initial.angle", "from": "30°", "to": "90 deg", "count": 4},
         {"key": "cam.speed", "values": ["60 rpm", 7]}],
@@ -91,25 +91,51 @@ TEST(SweepKeys, AreRejectedWithTheRemedy) {
                 ElementsAre(HasSubstr("there is no cam")));
 }
 
-TEST(SweepKeys, HaveWordsOnTheCommandLine) {
-    sim::Sampling sampling;
-    for (const char* text : {"impacts", "apexes", "section:cam_angle=0", "section:theta_dot=0.5:falling"}) {
-        EXPECT_EQ(parse_sample(text, {}, sampling), "");
-        EXPECT_EQ(text_of_sample(sampling), text);
-    }
-    EXPECT_THAT(parse_sample("section:thet=0", {}, sampling), HasSubstr("\"theta\""));
-    EXPECT_EQ(parse_sample("section:theta=90deg", {}, sampling), "");
-    EXPECT_NEAR(sampling.level, std::numbers::pi / 2, 1e-15);
-    EXPECT_THAT(parse_sample("section:theta=3 m", {}, sampling), HasSubstr("whose unit is rad"));
-    EXPECT_THAT(parse_sample("section:contact_force=10 m", {}, sampling), HasSubstr("whose unit is N"));
-    EXPECT_NE(parse_sample("every-day", {}, sampling), "");
-    SweepSeeds seeds;
-    EXPECT_EQ(parse_seeds("carry-up,carry-down", seeds), "");
-    EXPECT_THAT(seeds.kinds, ElementsAre(SeedKind::carry_up, SeedKind::carry_down));
-    EXPECT_EQ(parse_seeds("random:8", seeds), "");
-    EXPECT_EQ(seeds.random, 8);
+TEST(SweepKeys, HaveAStepInPlaceOfACount) {
+    const auto over = [](const char* rest) {
+        const Reading reading =
+            read(scene_with(fmt::format(R"({{"over": [{{"key": "cam.speed", "from": 40, "to": 41, {}}}]}})", rest)));
+        SweptKey refused;
+        refused.key = reading.report();
+        return reading.scene ? reading.scene->sweep->over.front() : refused;
+    };
+    EXPECT_EQ(over(R"("step": 0.25)").count, 5);
+    EXPECT_EQ(over(R"("step": 0.3)").count, 4);
+    EXPECT_NEAR(*over(R"("step": 0.3)").to, 40.9, 1e-12);
+    EXPECT_THAT(over(R"("step": 2)").key, HasSubstr("is not a step from 40 to 41"));
+    EXPECT_THAT(over(R"("step": -0.1)").key, HasSubstr("is not a step"));
+    EXPECT_THAT(over(R"("step": 1e-12)").key, HasSubstr("too many"));
+    EXPECT_THAT(over(R"("step": 0.1, "count": 3)").key, HasSubstr("keep one of them"));
+    EXPECT_THAT(over(R"("step": 0.1, "spacing": "log")").key, HasSubstr("needs a \"count\""));
+}
+
+// As after the options of `beamcam sweep`.
+TEST(SweepKeys, HaveAbbreviations) {
+    const auto with = [](const char* key, const char* text) {
+        Scene scene;
+        Node keys = object_node(
+            {{"over", array_node({object_node({{"key", "gravity"}, {"values", Node(std::vector{9.0})}})})}});
+        add(keys, key, text);
+        const std::string problem = read_sweep(keys, scene);
+        return std::pair(problem, scene.sweep.value_or(Sweep{}));
+    };
+    const auto sample = [&](const char* text) { return with("sample", text).second.sampling; };
+    EXPECT_EQ(sample("apexes").kind, sim::SampleKind::apexes);
+    EXPECT_EQ(sample("section:cam_angle=0").kind, sim::SampleKind::section);
+    EXPECT_EQ(sample("section:theta_dot=0.5:falling").kind, sim::SampleKind::crossings);
+    EXPECT_EQ(sample("section:theta_dot=0.5:falling").level, 0.5);
+    EXPECT_FALSE(sample("section:theta_dot=0.5:falling").rising);
+    EXPECT_THAT(with("sample", "section:thet=0").first, HasSubstr("\"theta\""));
+    EXPECT_NEAR(sample("section:theta=90deg").level, std::numbers::pi / 2, 1e-15);
+    EXPECT_THAT(with("sample", "section:theta=3 m").first, HasSubstr("measured in rad"));
+    EXPECT_THAT(with("sample", "section:contact_force=10 m").first, HasSubstr("measured in N"));
+    EXPECT_THAT(with("sample", "section:theta=0:sinking").first, HasSubstr("direction"));
+    EXPECT_NE(with("sample", "every-day").first, "");
+    EXPECT_THAT(with("seed", "carry-up,carry-down").second.seeds.kinds,
+                ElementsAre(SeedKind::carry_up, SeedKind::carry_down));
+    EXPECT_EQ(with("seed", "random:8").second.seeds.random, 8);
     for (const char* text : {"", "random", "random:0", "random:x", "up", "same,", "same,same"})
-        EXPECT_NE(parse_seeds(text, seeds), "");
+        EXPECT_NE(with("seed", text).first, "") << text;
 }
 
 }  // namespace
