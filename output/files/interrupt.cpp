@@ -57,7 +57,7 @@ extern "C" void on_signal(int) {
 }
 
 // Several threads may crash at once: the first one ends the program, and the others wait.
-extern "C" void on_crash(int signal_number) {
+extern "C" void on_crash(int) {
     pid_t first = 0;
     const pid_t self = gettid();
     if (crashed_thread.compare_exchange_strong(first, self)) end(exit_code_of_crash, kLibraryEnded);

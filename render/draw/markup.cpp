@@ -92,7 +92,7 @@ class Parser {
 
     // A fraction is a/b in one line.
     void fraction(const Run& style) {
-        if (std::exchange(after_fraction_, false) || is_after_factor(style.script)) put("·", {.script = style.script});
+        if (std::exchange(after_fraction_, false) || is_after_factor(style.script)) put("·", {.text = {}, .script = style.script});
         factor(style);
         put("/", style);
         factor(style);
