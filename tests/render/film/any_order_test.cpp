@@ -13,13 +13,13 @@
 namespace beamcam::render {
 namespace {
 
-TEST(Panels, SamePixelsInAnyOrder) { same_in_any_order(everything()); }
-TEST(Panels, ComparisonsHaveTheSamePixelsInAnyOrder) {
+TEST(AnyOrder, PanelsOfEverything) { same_in_any_order(everything()); }
+TEST(AnyOrder, Comparisons) {
     same_in_any_order(compared(Comparison::panels));
     same_in_any_order(compared(Comparison::ghosts));
 }
 
-TEST(SolidFilm, SamePixelsInAnyOrder) {
+TEST(AnyOrder, SolidFilms) {
     SKIP_WITHOUT_GL();
     FilmSetup setup = test::synthetic_film({.duration = 0.8});
     setup.width = 640, setup.height = 360;
@@ -27,9 +27,9 @@ TEST(SolidFilm, SamePixelsInAnyOrder) {
     same_in_any_order(std::move(setup));
 }
 
-TEST(FilmData, HaveTheSamePixelsInAnyOrder) { same_in_any_order(with_data()); }
+TEST(AnyOrder, MeasuredData) { same_in_any_order(with_data()); }
 
-TEST(Unreliable, PaleCurvesHaveTheSamePixelsInAnyOrder) {
+TEST(AnyOrder, PaleCurves) {
     FilmSetup setup = everything();
     setup.unreliable = {{0.1, 0.25}, {0.4, std::numeric_limits<double>::infinity()}};
     same_in_any_order(setup);
@@ -55,8 +55,8 @@ void stands_still(FilmSetup setup) {
     EXPECT_FALSE(film.repeats(46));  // the words are gone
 }
 
-TEST(Panels, StandStillWhileTimeDoes) { stands_still(everything()); }
-TEST(Panels, ComparisonsStandStillWhileTimeDoes) {
+TEST(AnyOrder, StandStillWhileTimeDoes) { stands_still(everything()); }
+TEST(AnyOrder, ComparisonsStandStillWhileTimeDoes) {
     stands_still(compared(Comparison::panels));
     stands_still(compared(Comparison::ghosts));
 }

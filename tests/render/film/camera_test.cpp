@@ -98,7 +98,7 @@ void keeps_to_its_panel(Style style) {
     EXPECT_EQ(drawn(fresh, 12), b);
 }
 TEST(Camera, KeepsToItsPanel) { keeps_to_its_panel(Style::flat); }
-TEST(LitFilm, CameraKeepsToItsPanel) {
+TEST(LitCamera, CameraKeepsToItsPanel) {
     SKIP_WITHOUT_GL();
     keeps_to_its_panel(Style::lit);
 }

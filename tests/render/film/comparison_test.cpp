@@ -14,7 +14,7 @@ namespace {
 
 using sim::ChannelKind;
 
-TEST(Panels, ComparedMechanismsHaveOneScaleAndOneFactor) {
+TEST(ComparedPanels, ComparedMechanismsHaveOneScaleAndOneFactor) {
     Film film(compared(Comparison::panels));
     const Layout layout = film.geometry(10).layout;
     std::vector<Box> boxes;
@@ -25,7 +25,7 @@ TEST(Panels, ComparedMechanismsHaveOneScaleAndOneFactor) {
     EXPECT_EQ(boxes[0].h, boxes[1].h);
 }
 
-TEST(Panels, MotionsAtOtherInstantsAreRefused) {
+TEST(ComparedPanels, MotionsAtOtherInstantsAreRefused) {
     FilmSetup setup = compared(Comparison::panels);
     setup.others[0].poses.pop_back();
     EXPECT_ANY_THROW(Film{std::move(setup)});

@@ -86,7 +86,7 @@ TEST(MechanismMarks, TheBaseLineIsNamedWhereThereIsTimeToReadIt) {
     EXPECT_EQ(words(0.01, 0), 0U);
 }
 
-TEST(Mechanism, TheAngleIsDrawnInTheSenseTheHubHasTurned) {
+TEST(MechanismMarks, TheAngleIsDrawnInTheSenseTheHubHasTurned) {
     // The arc of 200° is counter-clockwise: it crosses the vertical above the hub.
     FilmSetup setup = test::flat_film({.duration = 0.1, .cam = false}, 1200, 1200);
     const double angle = 200 * std::numbers::pi / 180;

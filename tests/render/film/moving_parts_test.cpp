@@ -93,11 +93,11 @@ void gl_films_are_drawn_as_if_all_were(Style style) {
     as_if_all_were_drawn(film, {22, 3, 47, 0, 18, 17}, 1);
 }
 
-TEST(LitFilm, MovingPartsAreDrawnAsIfAllWere) {
+TEST(MovingParts, OfLitFilmsAreDrawnAsIfAllWere) {
     SKIP_WITHOUT_GL();
     gl_films_are_drawn_as_if_all_were(Style::lit);
 }
-TEST(SolidFilm, MovingPartsAreDrawnAsIfAllWere) {
+TEST(MovingParts, OfSolidFilmsAreDrawnAsIfAllWere) {
     SKIP_WITHOUT_GL();
     gl_films_are_drawn_as_if_all_were(Style::solid);
 }

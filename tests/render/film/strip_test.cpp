@@ -56,7 +56,7 @@ TEST(ForceStrip, ReachesThePeakOfEveryImpact) {
 }
 
 // Few dots far apart are too small to be seen in the pale colour of the future, in which a line of dots is visible.
-TEST(Panels, SingleDotsOfTheFutureAreStrongerThanALineOfDots) {
+TEST(StripPanels, SingleDotsOfTheFutureAreStrongerThanALineOfDots) {
     const auto future_of = [](bool line) {
         FilmSetup setup = test::synthetic_film({.duration = 1});
         setup.impacts.clear();

@@ -26,11 +26,11 @@ void texts_keep_apart(FilmSetup setup) {
     }
 }
 
-TEST(Panels, TextKeepsWithinThePictureAndApart) {
+TEST(PanelTexts, TextKeepsWithinThePictureAndApart) {
     texts_keep_apart(everything());
     texts_keep_apart(with_data());
 }
-TEST(Panels, TextOfComparisonsKeepsApart) {
+TEST(PanelTexts, TextOfComparisonsKeepsApart) {
     texts_keep_apart(compared(Comparison::panels));
     texts_keep_apart(compared(Comparison::ghosts));
 }
@@ -50,7 +50,7 @@ TEST(Films, DataWithAChineseNameShowIt) {
 }
 
 // Characters that no font has are removed instead of drawn as boxes.
-TEST(Panels, PictographsLeaveNoBoxes) {
+TEST(PanelTexts, PictographsLeaveNoBoxes) {
     FilmSetup plain = test::synthetic_film({.duration = 0.1}), decorated = plain;
     for (FilmSetup* setup : {&plain, &decorated}) {
         setup->width = 960, setup->height = 540;

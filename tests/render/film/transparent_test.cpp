@@ -16,7 +16,7 @@ namespace {
 
 using sim::ChannelKind;
 
-TEST(Panels, ATransparentFilmHasNoPaper) {
+TEST(TransparentPanels, ATransparentFilmHasNoPaper) {
     FilmSetup setup = test::flat_film({.duration = 0.2}, 960, 540);
     setup.view.transparent = true;
     Film film(std::move(setup));
@@ -27,7 +27,7 @@ TEST(Panels, ATransparentFilmHasNoPaper) {
     EXPECT_GT(opaque, 10000U);
 }
 
-TEST(Panels, WordsOfATransparentLightFilmAreReadOnDarkGroundsToo) {
+TEST(TransparentPanels, WordsOfATransparentLightFilmAreReadOnDarkGroundsToo) {
     for (const Theme theme : {Theme::light, Theme::dark, Theme::print}) {
         const Palette p = palette(theme).without_paper();
         for (const std::uint32_t ground : {0xFFFFFFU, 0x000000U, 0x3A6EA5U, 0x888888U}) {
@@ -39,7 +39,7 @@ TEST(Panels, WordsOfATransparentLightFilmAreReadOnDarkGroundsToo) {
 }
 
 // On a ground of the curve's own colour, its outline shows it; the future stays fainter than the past.
-TEST(Panels, ThePastOfATransparentChartIsOutlinedAndTheFutureFaint) {
+TEST(TransparentPanels, ThePastOfATransparentChartIsOutlinedAndTheFutureFaint) {
     FilmSetup setup = test::flat_film({.duration = 1}, 960, 540);
     setup.view.transparent = true;
     setup.layout = leaf({.kind = PanelKind::strip, .channels = {{ChannelKind::theta, 0}}});
@@ -58,7 +58,7 @@ TEST(Panels, ThePastOfATransparentChartIsOutlinedAndTheFutureFaint) {
 }
 
 // Opaque paper around letters would be visible on any background.
-TEST(Panels, TextsOfATransparentFilmHaveNoPaperAroundThem) {
+TEST(TransparentPanels, TextsOfATransparentFilmHaveNoPaperAroundThem) {
     const auto of_paper = [](bool transparent) {
         FilmSetup setup = test::flat_film({.duration = 0.7}, 960, 540);
         setup.view.transparent = transparent;

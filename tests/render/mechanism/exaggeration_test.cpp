@@ -284,7 +284,7 @@ TEST(Exaggeration, ATouchingBeamIsDrawnTouchingWhereItDoes) {
     }
 }
 
-TEST(Camera, FitsTheWorldAndInvertsItself) {
+TEST(ExaggeratedCamera, FitsTheWorldAndInvertsItself) {
     Bounds world;
     world.add({-1, -2});
     world.add({3, 1}, 0.5);

@@ -61,7 +61,7 @@ TEST(PlainWords, AreForOtherPrograms) {
     EXPECT_EQ(plain_text("$e^{-\\zeta t}$"), "e^(−ζt)");
 }
 
-TEST(Markup, NamesOfFunctionsAreUpright) {
+TEST(UserMarkup, NamesOfFunctionsAreUpright) {
     const auto runs = parse_markup("$\\ddot\\theta = -\\frac{3g}{2L}\\cos\\theta$");
     ASSERT_GE(runs.size(), 3u);
     EXPECT_THAT(runs[runs.size() - 2].text, ::testing::EndsWith("cos\u2009"));
@@ -72,7 +72,7 @@ TEST(Markup, NamesOfFunctionsAreUpright) {
     EXPECT_EQ(plain_text("$\\left(x_{\\mathrm{tip}}\\right)$"), "(x_tip)");
 }
 
-TEST(Markup, ColouredLettersAreARun) {
+TEST(UserMarkup, ColouredLettersAreARun) {
     const auto symbols = parse_markup("\\color{#0072b2}{$θ$}, b");
     ASSERT_EQ(symbols.size(), 2u);
     EXPECT_EQ(symbols[0].color, 0x0072b2u);

@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 using testing::shell;
 using ::testing::StartsWith;
 
-TEST(Figures, PdfHasTrueTypeSubsetsItsSceneAndTheSameBytesTwice) {
+TEST(FigureFiles, PdfHasTrueTypeSubsetsItsSceneAndTheSameBytesTwice) {
     const Folder folder;
     folder.write("s.json", R"({"title": "x"})");
     for (const char* lang : {"en", "zh"}) {
@@ -28,7 +28,7 @@ TEST(Figures, PdfHasTrueTypeSubsetsItsSceneAndTheSameBytesTwice) {
     }
 }
 
-TEST(Figures, PdfFontsAreEmbeddedTrueType) {
+TEST(FigureFiles, PdfFontsAreEmbeddedTrueType) {
     const Folder folder;
     folder.write("s.json", R"({"cam": null, "time": {"end": 0.4}})");
     if (shell(folder, "command -v pdffonts").code != 0) GTEST_SKIP() << "needs pdffonts (Debian: poppler-utils)";
@@ -51,7 +51,7 @@ TEST(Figures, PdfFontsAreEmbeddedTrueType) {
     EXPECT_THAT(shell(folder, "pdfinfo a.pdf").out, HasSubstr("beamcam"));
 }
 
-TEST(Figures, DataAndCaptionLieBesideThem) {
+TEST(FigureFiles, DataAndCaptionLieBesideThem) {
     const Folder folder;
     folder.write("s.json", "{}");
     ASSERT_EQ(shell(folder, "$BEAMCAM figure s.json deflection -o a.png --data a.csv --caption a.txt -q").code, 0);
@@ -61,7 +61,7 @@ TEST(Figures, DataAndCaptionLieBesideThem) {
     EXPECT_THAT(testing::slurp(folder / "a.png"), HasSubstr("beamcam-scene"));
 }
 
-TEST(Figures, RunMakesThoseThatASceneLists) {
+TEST(FigureFiles, RunMakesThoseThatASceneLists) {
     const Folder folder;
     folder.write("s.json",
                  R"({"outputs": [{"type": "figure", "figure": "schematic", "file": "a.svg", "column": "nature"}]})");

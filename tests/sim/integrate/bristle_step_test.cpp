@@ -190,7 +190,7 @@ INSTANTIATE_TEST_SUITE_P(All, StickSlipMotion,
                                            Case{"OnAHub", {0.3, 0.4, {}}, 0.0184, 1500, hub}),
                          [](const auto& given) { return given.param.name; });
 
-TEST(StickSlip, TakesStepsThatDoNotFollowTheHighestMode) {
+TEST(BristleStep, TakesStepsThatDoNotFollowTheHighestMode) {
     const auto steps = [](int modes, const Friction& friction) {
         Problem p;
         p.beam.modes = modes;
