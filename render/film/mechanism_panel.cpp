@@ -91,7 +91,7 @@ void MechanismPanel::draw_still(Canvas& canvas, const MechanismView& at) const {
 
 // ---- moving parts ----------------------------------------------------------------------------
 
-// What a near camera cuts off fades out towards the edges of its panel, the more the nearer it is.
+// What a near camera cuts off fades out towards the edges of its panel but the lower one, the more the nearer it is.
 static void fade_edges(Canvas& canvas, const MechanismView& at) {
     constexpr int kSteps = 24;
     constexpr double kWidth = 60;  // [design px]
@@ -102,7 +102,7 @@ static void fade_edges(Canvas& canvas, const MechanismView& at) {
     for (int k = 0; k < kSteps; ++k) {
         const double inner = k * step;
         for (const Box& strip : {Box{b.x + inner, b.y, step, b.h}, Box{b.right() - inner - step, b.y, step, b.h},
-                                 Box{b.x, b.y + inner, b.w, step}, Box{b.x, b.bottom() - inner - step, b.w, step}}) {
+                                 Box{b.x, b.y + inner, b.w, step}}) {
             canvas.rectangle(strip);
             canvas.fill(at.palette.paper.faded(1 - (k + 0.5) / kSteps));
         }
