@@ -204,8 +204,8 @@ static void add_data(const FilmContext& context, const PanelSpec& spec, ChartCon
         }
 }
 
-// The limits ±μF of stick–slip friction beside the friction force, which slides while it is on one of them. True if the
-// chart has them.
+// The limits of stick–slip friction beside the friction force: it slides on ±μF, and sticks up to ±μ_s F, which is
+// dotted where it is another. True if the chart has them.
 static bool add_sliding_limits(const FilmContext& context, const PanelSpec& spec, ChartContent& c) {
     const auto* law = std::get_if<sim::StickSlipFriction>(&context.setup->problem.contact.friction);
     const sim::Table& chart = context.setup->chart;
@@ -213,13 +213,17 @@ static bool add_sliding_limits(const FilmContext& context, const PanelSpec& spec
     if (!law || !t || !force || context.members() > 1 || spec.channels.size() > 1 ||
         spec.channels.front().kind != ChannelKind::friction_force)
         return false;
-    for (const double side : {-1, 1}) {
-        figure::Series limit{.color = context.look.palette.muted};
-        limit.faint = context.look.palette.tint(context.look.palette.muted, 0.25);
-        limit.dash = FilmContext::dash_of(1);
-        for (std::size_t i = 0; i < t->size(); ++i) limit.add((*t)[i], side * law->coefficient * (*force)[i]);
-        c.panel.series.push_back(std::move(limit));
-    }
+    std::vector<double> limits{law->coefficient};
+    if (law->static_coefficient && *law->static_coefficient != law->coefficient)
+        limits.push_back(*law->static_coefficient);
+    for (std::size_t k = 0; k < limits.size(); ++k)
+        for (const double limit : {-limits[k], limits[k]}) {
+            figure::Series curve{.color = context.look.palette.muted};
+            curve.faint = context.look.palette.tint(context.look.palette.muted, 0.25);
+            curve.dash = FilmContext::dash_of(k + 1);
+            for (std::size_t i = 0; i < t->size(); ++i) curve.add((*t)[i], limit * (*force)[i]);
+            c.panel.series.push_back(std::move(curve));
+        }
     return true;
 }
 

@@ -233,6 +233,7 @@ PictureOutput told_settle(PictureOutput film, const Scene& scene, const sim::Res
     span.hold = kHold;
     tell_beginning(film, scene.problem);
     tell(film, first.t_start, touch_of(first), kAtTouch);
+    film.span.events.back().show = kAtTouch + 3 * kFade;  // it is over before the beam is high above the cam
     tell(film, settled,
          fmt::format("stays in contact from {:.4g} s on, after {}", settled, counted(bounces, "impact")));
     return film;

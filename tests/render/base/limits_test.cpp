@@ -15,8 +15,9 @@ using ::testing::StartsWith;
 TEST(Limits, AShortMemoryIsNamedWithItsLimit) {
     rlimit before = {};
     getrlimit(RLIMIT_DATA, &before);
-    if (before.rlim_cur == RLIM_INFINITY && !memory_limit())
+    if (before.rlim_cur == RLIM_INFINITY && !memory_limit()) {
         EXPECT_THAT(out_of_memory_message(), Not(HasSubstr("MiB")));
+    }
     rlimit limited = before;
     limited.rlim_cur = rlim_t{8} << 30;
     ASSERT_EQ(setrlimit(RLIMIT_DATA, &limited), 0);
