@@ -5,7 +5,7 @@
 namespace beamcam::render {
 namespace {
 
-constexpr double kCaption = 22 / 20.0, kSmallCaption = 16 / 20.0;  // sizes, in those of headings
+constexpr double kCaption = 22 / 20.0;  // size of letters, in that of headings
 
 TextStyle style_of(double size, Color color) {
     return {.size = size, .color = color, .weight = Weight::medium, .align = HAlign::centre};
@@ -17,10 +17,10 @@ CaptionBand::CaptionBand(const FilmContext& context) : context_(context) {
     if (!context.places.captions) return;
     Image scratch(1, 1);
     const Canvas canvas(scratch, *context.fonts);
-    const double heading = context.look.letters.heading;
+    const Letters& letters = context.look.letters;
     for (const Callout& each : context.setup->callouts)
-        texts_.push_back(fitted_text(canvas, each.text, style_of(kCaption * heading, {}),
-                                     std::max(kSmallCaption * heading, kReadable), context.places.captions->w));
+        texts_.push_back(fitted_text(canvas, each.text, style_of(kCaption * letters.heading, {}), letters.words,
+                                     context.places.captions->w));
 }
 
 bool CaptionBand::cuts_texts() const { return std::ranges::any_of(texts_, &FittedText::cut); }

@@ -97,19 +97,18 @@ class EnergyPanel final : public ChartPanel {
             20 * u;
         const TextStyle style{.size = context_.look.letters.words, .color = context_.look.palette.muted};
         const double side = 0.8 * style.size, beside = 1.15 * style.size, gap = 0.7 * style.size;
-        const auto width = [&](const Part& part, bool in_symbols) {
-            return beside + canvas.measure(in_symbols ? part.symbol : std::string(part.label), style).w + gap;
-        };
+        std::string Part::*text = &Part::label;
+        const auto width = [&](const Part& part) { return beside + canvas.measure(part.*text, style).w + gap; };
         double end = first;
-        for (const Part& part : shown) end += width(part, false);
-        const bool in_symbols = end - gap > box_.right();
+        for (const Part& part : shown) end += width(part);
+        if (end - gap > box_.right()) text = &Part::symbol;
         double x = first;
         for (const Part& part : shown) {
-            const double w = width(part, in_symbols);
+            const double w = width(part);
             if (x + w - gap > box_.right() + 1) break;
             canvas.rounded({x, box_.y + 26.5 * u - side, side, side}, 3 * u);
             canvas.fill(part.color);
-            canvas.text({x + beside, box_.y + 26 * u}, in_symbols ? part.symbol : std::string(part.label), style);
+            canvas.text({x + beside, box_.y + 26 * u}, part.*text, style);
             x += w;
         }
     }

@@ -188,10 +188,15 @@ std::string filled(std::string_view page, const std::map<std::string_view, std::
     return out;
 }
 
+// The drawn hub, which covers the corner of the beam's root [m].
+double hub_of_page(const sim::Problem& problem) {
+    return std::max({problem.hub.radius, root_radius(problem), 0.022 * problem.beam.length});
+}
+
 // Radius of the arc of θ: outside the hub and clear of the disc, unless there is no room between them.
 double arc_radius(const sim::Problem& problem) {
     const double length = problem.beam.length, usual = std::max(0.14 * length, problem.hub.radius + 0.1 * length),
-                 least = std::max(problem.hub.radius, 0.022 * length) * 2;
+                 least = 2 * hub_of_page(problem);
     if (!problem.cam) return usual;
     const double before_cam = arc_before_cam(problem);
     return before_cam >= least ? std::min(usual, before_cam) : usual;
@@ -226,7 +231,7 @@ std::string html_page(const FilmSetup& setup) {
         R"({{"title":{},"factor":{:.9g},"tolerance":{:.9g},"length":{:.9g},"thickness":{:.9g},"hub":{:.9g},"arc":{:.9g},"force":{:.9g},)"
         R"("degrees":{},"colors":{},"cam":{},"impacts":{},{}}})",
         json_text(plain_text(setup.title)), context.scales.exaggeration, kPageTolerance * length, length, thickness,
-        problem.hub.radius, arc_radius(problem), context.scales.arrow_force, setup.units.degrees, colors,
+        hub_of_page(problem), arc_radius(problem), context.scales.arrow_force, setup.units.degrees, colors,
         cam_json(context), impacts_json(context), numbers_json(thinned_instants(std::move(all), length)));
     const Lang lang = setup.view.lang;
     return filled(player_html(), {{"LANG", lang == Lang::en ? "en" : "zh"},

@@ -6,7 +6,7 @@
 namespace beamcam::render {
 namespace {
 
-constexpr double kSmallestUnit = 0.5;  // 16 design pixels of text are 8 px, the smallest readable size
+constexpr double kSmallestUnit = 0.5;  // gaps do not become smaller in smaller pictures [px]
 constexpr double kTightWords = 17;     // letters for which the margins of plots are stated below [design px]
 
 Letters letters_of(double design_pixel) {
