@@ -23,11 +23,11 @@ namespace beamcam::scenes {
 using AddCommand = void(Program& program);
 AddCommand add_run, add_render, add_simulate, add_sweep, add_collect, add_lyapunov, add_orbits, add_modes, add_cam,
     add_check, add_plan, add_init, add_examples, add_schema, add_keys, add_hash, add_diff, add_test, add_info,
-    add_doctor, add_accuracy, add_figure, add_completion, add_manual;
+    add_doctor, add_accuracy, add_figure;
 inline constexpr AddCommand* kCommands[] = {
-    add_run,  add_render, add_simulate, add_sweep,  add_collect,  add_lyapunov, add_orbits,     add_modes,
-    add_cam,  add_check,  add_plan,     add_init,   add_examples, add_schema,   add_keys,       add_hash,
-    add_diff, add_test,   add_info,     add_doctor, add_accuracy, add_figure,   add_completion, add_manual,
+    add_run,  add_render, add_simulate, add_sweep,  add_collect,  add_lyapunov, add_orbits, add_modes,
+    add_cam,  add_check,  add_plan,     add_init,   add_examples, add_schema,   add_keys,   add_hash,
+    add_diff, add_test,   add_info,     add_doctor, add_accuracy, add_figure,
 };
 
 // ---- options that several commands share --------------------------------------------------------

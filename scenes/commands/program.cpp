@@ -21,13 +21,10 @@ std::string wrapped(const std::string& text, std::size_t columns) {
     return out;
 }
 
-std::string HelpFormatter::meaning_of(const CLI::Option* option) const {
-    const auto found = meanings_.find(option);
-    return found == meanings_.end() || !option->get_description().empty() ? option->get_description() : found->second();
-}
-
 std::string HelpFormatter::make_option_desc(const CLI::Option* option) const {
-    return wrapped(meaning_of(option), kHelpColumns - get_column_width());
+    const auto found = meanings_.find(option);
+    const bool own = found == meanings_.end() || !option->get_description().empty();
+    return wrapped(own ? option->get_description() : found->second(), kHelpColumns - get_column_width());
 }
 
 Program::Program()

@@ -1,5 +1,4 @@
-// The command line, parsed by CLI11: each command adds its options to the program once. Completion and manual are read
-// from the parser.
+// The command line, parsed by CLI11: each command adds its options to the program once.
 #pragma once
 
 #include <fmt/format.h>
@@ -26,7 +25,6 @@ namespace beamcam::scenes {
 class HelpFormatter final : public CLI::Formatter {
   public:
     void explain(const CLI::Option* option, std::function<std::string()> meaning) { meanings_[option] = meaning; }
-    std::string meaning_of(const CLI::Option* option) const;
     std::string make_option_desc(const CLI::Option* option) const override;
 
   private:

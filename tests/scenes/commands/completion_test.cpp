@@ -1,11 +1,9 @@
-// What the program writes about itself: completion for shells, the manual; and the scenes that come with it.
+// What comes with the program: completion for bash, and scenes to start from.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <sstream>
 #include <string>
 
-#include "scenes/commands/commands.hpp"
 #include "scenes/format/embedded.hpp"
 #include "tests/scenes/support.hpp"
 
@@ -13,14 +11,14 @@ namespace beamcam::scenes {
 namespace {
 
 using testing::Finished, testing::Folder, testing::shell;
-using ::testing::HasSubstr, ::testing::Not;
+using ::testing::HasSubstr;
 
 // What bash offers after these words.
 std::string completed(const Folder& folder, const std::string& words) {
-    return shell(folder, "export BEAMCAM; bash -c 'eval \"$(\"$BEAMCAM\" completion bash)\"; COMP_WORDS=(beamcam " +
-                             words +
-                             "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); "
-                             "_beamcam \"$BEAMCAM\" \"${COMP_WORDS[-1]}\"; printf \"%s\\n\" \"${COMPREPLY[@]}\"'")
+    return shell(folder,
+                 "bash -c '. \"" BEAMCAM_TEST_DIR "/../scenes/completion.bash\"; COMP_WORDS=(beamcam " + words +
+                     "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); "
+                     "_beamcam \"$0\" \"${COMP_WORDS[-1]}\"; printf \"%s\\n\" \"${COMPREPLY[@]}\"' \"$BEAMCAM\"")
         .out;
 }
 
@@ -32,42 +30,8 @@ TEST(Completion, BashOffersCommandsOptionsAndFiles) {
     EXPECT_EQ(completed(folder, "check a"), "a scene.json\n");
     EXPECT_EQ(completed(folder, "run --set cam.speed=1 a"), "a scene.json\n");
     EXPECT_EQ(completed(folder, "no-command --f"), "\n");
-}
-
-TEST(Completion, EveryShellKnowsEveryCommandAndOption) {
-    const Folder folder;
-    Program program;
-    for (const auto add : kCommands) add(program);
-    for (const std::string name : {"bash", "zsh", "fish"}) {
-        const std::string script = shell(folder, "$BEAMCAM completion " + name).out;
-        for (const CLI::App* command : commands_of(program)) {
-            EXPECT_THAT(script, HasSubstr(" " + command->get_name())) << name;
-            for (const CLI::Option* option : options_of(*command))
-                for (const std::string& dashed : option->get_lnames())
-                    EXPECT_THAT(script, HasSubstr(" --" + dashed)) << name;
-        }
-        folder.write("script", script);
-        if (shell(folder, "command -v " + name).code == 0) {
-            EXPECT_EQ(shell(folder, name + " -n script").code, 0) << name;
-        }
-    }
-    EXPECT_EQ(shell(folder, "$BEAMCAM completion tcsh").code, 2);
-}
-
-TEST(Manual, NamesEveryCommandOptionAndExitCode) {
-    const Folder folder;
-    const Finished manual = shell(folder, "$BEAMCAM manual");
-    ASSERT_EQ(manual.code, 0);
-    Program program;
-    for (const auto add : kCommands) add(program);
-    for (const CLI::App* command : commands_of(program))
-        EXPECT_THAT(manual.out, HasSubstr(".SS beamcam " + command->get_name() + "\n"));
-    for (const char* words : {"\\-\\-background", "interrupted", "BEAMCAM_GL"})
-        EXPECT_THAT(manual.out, HasSubstr(words));
-    if (shell(folder, "command -v groff").code == 0) {
-        const Finished checked = shell(folder, "$BEAMCAM manual | groff -k -man -ww -Tutf8 -z");
-        EXPECT_EQ(checked.err, "");
-    }
+    EXPECT_EQ(completed(folder, "simulate --state-"), "--state-at\n");
+    EXPECT_EQ(completed(folder, "run --o"), "--output\n");
 }
 
 TEST(Examples, EachIsListedWithALineAndCopied) {
