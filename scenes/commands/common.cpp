@@ -172,10 +172,8 @@ void require_units(const std::string& option, const std::vector<std::string>& va
     };
     const auto lacks_unit = [&](const std::string& text) { return is_plain(text) && text != "0"; };
     if (std::ranges::any_of(values, lacks_unit) && !std::ranges::all_of(values, is_plain))
-        throw UsageError(
-            fmt::format("{}: some of its numbers have a unit; write it with each of them, as in 100rpm:900rpm:9 for 9 "
-                        "values, or 100rpm:900rpm:50rpm for steps",
-                        option));
+        throw UsageError(fmt::format(
+            "{}: some of its numbers have a unit; write it with each of them, as in 100rpm:900rpm:9", option));
 }
 
 sim::CamSpan span_argument(const char* option, const std::string& text) {

@@ -29,15 +29,7 @@ struct SweepArguments {
     std::optional<std::string> shard;
 };
 
-// "601" and "601n" are a number of values; "0.02", "2.0" and "2 rad/s" are a step. "1" is a step, too: a range has more
-// than one value.
-bool is_count(const std::string& text) {
-    const bool digits = text.find_first_not_of("0123456789") == std::string::npos;
-    return text.ends_with('n') || (digits && text != "0" && text != "1");
-}
-
-// The entry of "over" that the option stands for: KEY=FIRST:LAST:COUNT, then :log; KEY=FIRST:LAST:STEP; KEY=v,v,…;
-// KEY=@FILE:COLUMN.
+// The entry of "over" that the option stands for: KEY=FIRST:LAST:COUNT, then :log; KEY=v,v,…; KEY=@FILE:COLUMN.
 Node over_node(const std::string& text) {
     const std::string option = "--over " + text;
     const std::size_t equals = text.find('=');
@@ -60,14 +52,10 @@ Node over_node(const std::string& text) {
     }
     const bool spaced = parts.size() == 4 && (parts[3] == "log" || parts[3] == "linear");
     if (parts.size() != 3 && !spaced)
-        throw UsageError(
-            option +
-            ": write KEY=FIRST:LAST:COUNT, with :log for logarithmic spacing, or KEY=FIRST:LAST:STEP as in 40:52:0.02");
-    const bool counted = is_count(parts[2]) || (spaced && parts[3] == "log");
-    require_units(option, {parts.begin(), parts.begin() + (counted ? 2 : 3)});
+        throw UsageError(option + ": write KEY=FIRST:LAST:COUNT, with :log for logarithmic spacing");
+    require_units(option, {parts[0], parts[1]});
     add(over, "from", value_node(parts[0])), add(over, "to", value_node(parts[1]));
-    const std::string third = parts[2].ends_with('n') ? parts[2].substr(0, parts[2].size() - 1) : parts[2];
-    add(over, counted ? "count" : "step", value_node(third));
+    add(over, "count", value_node(parts[2]));
     if (spaced) add(over, "spacing", parts[3]);
     return over;
 }
@@ -167,9 +155,7 @@ void add_sweep(Program& program) {
     add_option(
         app, "--over", args.over, "KEY=VALUES",
         "The key to vary and its values: KEY=FIRST:LAST:COUNT (both ends included; add :log for logarithmic spacing), "
-        "KEY=FIRST:LAST:STEP, KEY=v,v,... or KEY=@FILE.csv:COLUMN. A third number of digits only, 2 or more, is a "
-        "COUNT; "
-        "0.02, 2.0 and 1 are a STEP. A unit belongs to each number: 300rpm:600rpm:7. Twice for a grid");
+        "KEY=v,v,... or KEY=@FILE.csv:COLUMN. A unit belongs to each number: 300rpm:600rpm:7. Twice for a grid");
     add_option(
         app, "--sample", args.sample, "WHAT",
         "When to take samples: impacts, apexes, peaks (one of all: largest force, stress, gap …), section:cam_angle=A, "

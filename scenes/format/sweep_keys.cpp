@@ -54,28 +54,11 @@ static void read_column(ObjectReader& r, SweptKey& over) {
     over.file.clear(), over.column.clear();
 }
 
-// Replaces the step of a range by the number of its values.
-static void count_steps(ObjectReader& r, SweptKey& over) {
-    if (!over.step || !over.from || !over.to) return;
-    if (over.logarithmic) return r.reject("step", ": logarithmic spacing needs a \"count\"");
-    const double step = *std::exchange(over.step, {}),
-                 count = 1 + std::floor((*over.to - *over.from) / step * (1 + 1e-12) + 1e-9);
-    if (count > kMostValues && std::isfinite(count))
-        return r.reject("step", ": {:.4g} values are too many; a key has at most {:g}", count, double(kMostValues));
-    if (!(count >= 2 && count <= kMostValues))  // a step within the range leads to a second value
-        return r.reject("step", " = {:g} is not a step from {:g} to {:g}", step, *over.from, *over.to);
-    over.to = *over.from + (count - 1) * step;
-    over.count = static_cast<int>(count);
-}
-
 static void visit(SceneVisitor& v, SweptKey& over) {
     v.text(sim::required("key", "\"cam.speed\""), over.key, "A key of the scene that is a number.");
     v.value("from", quantity_format(over.from, dimension_of(over.key)), "First value.");
     v.value("to", quantity_format(over.to, dimension_of(over.key)), "Last value.");
     v.integer("count", over.count, 1, kMostValues, "Number of values, both ends included.");
-    v.value(sim::written_if(false, "step"), quantity_format(over.step, dimension_of(over.key)),
-            "Distance of the values in place of their number; \"to\" is the last one if it is a whole number of steps "
-            "away.");
     v.choice("spacing", over.logarithmic, {{false, "linear"}, {true, "log"}},
              "Spacing of the values between the ends.");
     v.value("values", quantities_format(over.values, dimension_of(over.key), 1), "A list of values.");
@@ -85,11 +68,7 @@ static void visit(SceneVisitor& v, SweptKey& over) {
     v.exclusive("from", "values");
     v.exclusive("from", "file");
     v.exclusive("values", "file");
-    v.exclusive("count", "step");
-    v.check([&over](ObjectReader& r) {
-        read_column(r, over);
-        count_steps(r, over);
-    });
+    v.check([&over](ObjectReader& r) { read_column(r, over); });
 }
 
 namespace {
@@ -231,10 +210,10 @@ void check_sweep(ObjectReader& r, const Sweep& sweep) {
         const std::string at = fmt::format("over.{}", i);
         need_key(at + ".key", over.key);
         const bool ranged = over.from && over.to && over.count;
-        const bool partly = over.from || over.to || over.count || over.step;
+        const bool partly = over.from || over.to || over.count;
         const int ways = int(partly) + int(!over.values.empty()) + int(!over.file.empty());
         if (ways != 1 || (partly && !ranged))
-            reject(at, "write from, to and count or step; or values; or file and column");
+            reject(at, "write from, to and count; or values; or file and column");
         else if (ranged && *over.count == 1 && *over.from != *over.to)
             reject(at + ".count", "one value cannot have two ends; write at least 2, or equal ends");
         else if (ranged && over.logarithmic && !(*over.from * *over.to > 0))

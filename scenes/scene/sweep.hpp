@@ -16,7 +16,6 @@ struct SweptKey {
     std::string key;
     std::optional<double> from, to;  // both ends are values
     std::optional<int> count;
-    std::optional<double> step;  // as written, until the values are counted
     bool logarithmic = false;
     std::vector<double> values;
     std::string file, column;  // as written, until the values are read

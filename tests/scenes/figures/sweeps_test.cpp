@@ -432,7 +432,7 @@ TEST(Diagram, IsAFileWithItsCaption) {
     for (const char* ending : {"png", "pdf", "svg"}) {
         const auto done = testing::shell(
             folder,
-            std::string("$BEAMCAM sweep s.json --over cam.speed=20:40:9n --transient 30 --keep 12 --caption c.txt "
+            std::string("$BEAMCAM sweep s.json --over cam.speed=20:40:9 --transient 30 --keep 12 --caption c.txt "
                         "--force --diagram d.") +
                 ending);
         ASSERT_EQ(done.code, 0) << done.err;

@@ -91,24 +91,6 @@ TEST(SweepKeys, AreRejectedWithTheRemedy) {
                 ElementsAre(HasSubstr("there is no cam")));
 }
 
-TEST(SweepKeys, HaveAStepInPlaceOfACount) {
-    const auto over = [](const char* rest) {
-        const Reading reading =
-            read(scene_with(fmt::format(R"({{"over": [{{"key": "cam.speed", "from": 40, "to": 41, {}}}]}})", rest)));
-        SweptKey refused;
-        refused.key = reading.report();
-        return reading.scene ? reading.scene->sweep->over.front() : refused;
-    };
-    EXPECT_EQ(over(R"("step": 0.25)").count, 5);
-    EXPECT_EQ(over(R"("step": 0.3)").count, 4);
-    EXPECT_NEAR(*over(R"("step": 0.3)").to, 40.9, 1e-12);
-    EXPECT_THAT(over(R"("step": 2)").key, HasSubstr("is not a step from 40 to 41"));
-    EXPECT_THAT(over(R"("step": -0.1)").key, HasSubstr("is not a step"));
-    EXPECT_THAT(over(R"("step": 1e-12)").key, HasSubstr("too many"));
-    EXPECT_THAT(over(R"("step": 0.1, "count": 3)").key, HasSubstr("keep one of them"));
-    EXPECT_THAT(over(R"("step": 0.1, "spacing": "log")").key, HasSubstr("needs a \"count\""));
-}
-
 // As after the options of `beamcam sweep`.
 TEST(SweepKeys, HaveAbbreviations) {
     const auto with = [](const char* key, const char* text) {

@@ -241,21 +241,15 @@ TEST(SweepCommand, TakesRangesListsColumnsAndUnits) {
         return values;
     };
     using ::testing::ElementsAre;
-    EXPECT_THAT(first_column("cam.speed=40:44:3n"), ElementsAre("40", "42", "44"));
-    EXPECT_THAT(first_column("cam.speed=40:41.1:0.5"), ElementsAre("40", "40.5", "41"));
     EXPECT_THAT(first_column("cam.speed=40:44:3"), ElementsAre("40", "42", "44"));
-    EXPECT_THAT(first_column("cam.speed=40:44:2.0"), ElementsAre("40", "42", "44"));
-    EXPECT_THAT(first_column("cam.speed=40:44:1"), ElementsAre("40", "41", "42", "43", "44"));
-    EXPECT_THAT(first_column("cam.speed=40:42:1e0"), ElementsAre("40", "41", "42"));
-    EXPECT_THAT(first_column("cam.speed=44:40:-2"), ElementsAre("44", "42", "40"));
     EXPECT_THAT(first_column("cam.speed=44:40:2"), ElementsAre("44", "40"));
-    EXPECT_THAT(first_column("cam.speed=40:40:1n"), ElementsAre("40"));
-    EXPECT_THAT(first_column("cam.speed=40 rad/s:42 rad/s:2 rad/s"), ElementsAre("40", "42"));
-    EXPECT_THAT(first_column("cam.speed=25:100:3n:log"), ElementsAre("25", "50", "100"));
+    EXPECT_THAT(first_column("cam.speed=40:40:1"), ElementsAre("40"));
+    EXPECT_THAT(first_column("cam.speed=40 rad/s:42 rad/s:2"), ElementsAre("40", "42"));
+    EXPECT_THAT(first_column("cam.speed=25:100:3:log"), ElementsAre("25", "50", "100"));
     EXPECT_THAT(first_column("cam.speed=50,40"), ElementsAre("50", "40"));
     EXPECT_THAT(first_column("cam.speed=@w.csv:w"), ElementsAre("40", "41.5"));
     EXPECT_EQ(first_column("cam.speed=300 rpm").at(0).substr(0, 6), "31.415");
-    EXPECT_EQ(first_column("cam.speed=0:600rpm:3"), first_column("cam.speed=0 rpm:600rpm:300 rpm"));
+    EXPECT_EQ(first_column("cam.speed=0:600rpm:3"), first_column("cam.speed=0 rpm,300rpm,600rpm"));
 }
 
 TEST(SweepCommand, RejectsWithAMessage) {
@@ -265,15 +259,13 @@ TEST(SweepCommand, RejectsWithAMessage) {
          {std::tuple{"--over cam.spee=1:2:3", 2, "did you mean"},
           {"--over cam.speed", 2, "KEY=FIRST:LAST:COUNT"},
           {"--over cam.speed=1:2", 2, "KEY=FIRST:LAST:COUNT"},
-          {"--over cam.speed=40:44:1n", 2, "one value cannot have two ends"},
+          {"--over cam.speed=40:44:1", 2, "one value cannot have two ends"},
           {"--over cam.speed=40:44:1:log", 2, "one value cannot have two ends"},
-          {"--over cam.speed=40:44:0", 2, "step = 0 is not a step"},
-          {"--over cam.speed=44:40:1", 2, "step = 1 is not a step"},
-          {"--over cam.speed=40:44:1e9", 2, "1e+09 is not a step"},
-          {"--over cam.speed=1:1e9:1e-3", 2, "1e+12 values are too many; a key has at most 1e+08"},
-          {"--over cam.speed=40:44:0n", 2, "count = 0 is outside 1"},
+          {"--over cam.speed=40:44:0", 2, "count = 0 is outside 1"},
+          {"--over cam.speed=40:44:1e9", 2, "count = 1e9 is outside 1"},
+          {"--over cam.speed=40:44:0.5", 2, "count = 0.5 must be a whole number"},
           {"--over cam.speed=40:44:nan", 2, "count must be a whole number"},
-          {"--over cam.speed=40:44:-3n", 2, "count = -3 is outside 1"},
+          {"--over cam.speed=40:44:-3", 2, "count = -3 is outside 1"},
           {"--over cam.speed=0:44:3:log", 2, "log"},
           {"--over cam.speed=40:44:3s", 2, "3s"},
           {"--seed up", 2, "carry-up"},
@@ -283,20 +275,19 @@ TEST(SweepCommand, RejectsWithAMessage) {
           {"--keep 0", 2, "must be greater than 0"},
           {"--keep '0 s'", 2, "must be greater than 0"},
           {"--transient 1e19", 2, "up to 1e+09"},
-          {"--over initial.angle=0.4:0.5:2n --seed carry-up", 2, "use \"same\""},
+          {"--over initial.angle=0.4:0.5:2 --seed carry-up", 2, "use \"same\""},
           {"--caption c.txt", 2, "belongs to --diagram"},
           {"--diagram d.pdf --value v_n", 2, "--value v_n: the samples of the sweep have no column \"v_n\""},
           {"--over 'cam.speed=100:900:9 rpm'", 2, "some of its numbers have a unit"},
           {"--over 'cam.speed=100:900 rpm:9'", 2, "some of its numbers have a unit"},
-          {"--over 'cam.speed=100 rpm:900 rpm:0.5'", 2, "some of its numbers have a unit"},
           {"--over 'cam.speed=300 rpm,400'", 2, "some of its numbers have a unit"},
           {"--set beam.model=exact --exponents", 2, "the model exact has no tangent flow"},
           {"--over cam.speed=40:44:3 --over gravity=9:10:2 --diagram d.pdf --value exponent", 2,
            "the sweep computes no exponents"},
           {"-o - --shard 1/2", 2, "name the table of the whole sweep"},
           {"-o a.csv --shard 1/2 --diagram d.pdf", 2, "collect the parts first"},
-          {"--over cam.eccentricity=0:0.2:3n", 3, "sweep at cam.eccentricity = 0.1"},
-          {"--over beam.modes=1:2:3n", 3, "whole number"}}) {
+          {"--over cam.eccentricity=0:0.2:3", 3, "sweep at cam.eccentricity = 0.1"},
+          {"--over beam.modes=1:2:3", 3, "whole number"}}) {
         const Finished done = shell(folder, std::string("$BEAMCAM sweep s.json ") + arguments);
         EXPECT_EQ(done.code, code) << arguments;
         EXPECT_THAT(done.err, HasSubstr(words)) << arguments;
