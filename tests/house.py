@@ -24,7 +24,7 @@ PRIVATE_LIBRARIES = [
     ("SUNDIALS", re.compile(r"^(cvode|nvector|sunmatrix|sunlinsol|sunnonlinsol|sundials)/"), {"sim": 1}),
     ("OSMesa or EGL", re.compile(r"^(GL/osmesa\.h|EGL/)"), {"render": 2}),
     ("FFmpeg", re.compile(r"^(libav\w+|libsw\w+)/"), {"output": 4}),
-    ("libnetcdf", re.compile(r"^netcdf"), {"output": 3}),
+    ("libnetcdf", re.compile(r"^netcdf"), {"output": 1}),
     ("HDF5", re.compile(r"^hdf5"), {"output": 1}),
     ("OpenSSL", re.compile(r"^openssl/"), {"output": 1}),
     ("libspng", re.compile(r"^spng\.h$"), {"output": 1}),

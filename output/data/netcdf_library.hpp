@@ -1,17 +1,14 @@
-// Interface of the module that links libnetcdf (beamcam_netcdf.so, from output/data/netcdf/): sweeps and tables as
+// Interface of the module that links libnetcdf (beamcam_netcdf.so, from output/data/netcdf/): sweeps as
 // NetCDF-4 files, which are written only. The module is loaded at its first use, because its libraries would add
 // milliseconds to every start.
 //
 // A sweep has the dimensions second swept key, first swept key, "seed" and "sample"; fill values follow the last sample
-// of a point, and chunks contain whole points. A table has a variable for each column over the dimension "row". The
-// same numbers give the same bytes.
+// of a point. The same numbers give the same bytes.
 #pragma once
 
 #include <filesystem>
-#include <string>
 
 #include "output/data/sweep_data.hpp"
-#include "output/data/tables.hpp"
 
 namespace beamcam::output {
 
@@ -21,9 +18,6 @@ class NetcdfLibrary {
     // `file` exists and is overwritten; messages call it `named`. Throws IoError.
     virtual void write(const std::filesystem::path& file, const std::filesystem::path& named,
                        const SweepData& data) const = 0;
-    virtual void write(const std::filesystem::path& file, const std::filesystem::path& named,
-                       const ColumnTable& table) const = 0;
-    virtual std::string version() const = 0;
 };
 
 // Throws render::MissingPart with every place that was searched.

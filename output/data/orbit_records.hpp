@@ -1,10 +1,9 @@
-// Periodic orbits, their branches and Lyapunov exponents as JSON and tables, with the names that scripts use.
+// Periodic orbits, their branches and Lyapunov exponents as JSON, with the names that scripts use.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "output/data/tables.hpp"
 #include "sim/orbit/continuation.hpp"
 #include "sim/orbit/exponents.hpp"
 
@@ -24,8 +23,5 @@ struct BranchTable {
 // {"parameter", "start", "orbits": […], "branches": [{"period", "impacts", "points": […]}], "events": […]}. Periods are
 // in turns of the cam, as in sweeps.
 std::string orbits_json(const BranchTable& table);
-// A row for each impact of each point of the branches, or of the orbits if there are no branches. `attributes`: of a
-// NetCDF file.
-ColumnTable orbit_columns(const BranchTable& table, std::vector<std::pair<std::string, std::string>> attributes);
 
 }  // namespace beamcam::output

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "output/data/netcdf_library.hpp"
 #include "output/data/npz.hpp"
 #include "output/files/atomic_file.hpp"
 #include "output/files/numbers.hpp"
@@ -119,11 +118,6 @@ void write_csv(std::ostream& out, const sim::Table& table) { csv(columns_of(tabl
 
 void write_table(const FileTarget& file, const sim::Table& table) { write_columns(file, columns_of(table)); }
 
-void write_table(const FileTarget& file, const ColumnTable& table) {
-    if (file.path.extension() != ".nc") return write_columns(file, columns_of(table));
-    AtomicFile atomic(file);
-    netcdf_library().write(atomic.temporary_path(), file.path, table);
-    atomic.commit();
-}
+void write_table(const FileTarget& file, const ColumnTable& table) { write_columns(file, columns_of(table)); }
 
 }  // namespace beamcam::output

@@ -1,5 +1,4 @@
-// Tables of numbers, and their writing: CSV for people and spreadsheets, NPZ for numpy, NetCDF-4 with units and
-// meanings. table_reader.hpp reads them.
+// Tables of numbers, and their writing: CSV for people and spreadsheets, NPZ for numpy. table_reader.hpp reads them.
 #pragma once
 
 #include <functional>
@@ -24,9 +23,8 @@ struct TableColumn {
 };
 struct ColumnTable {
     std::vector<TableColumn> columns;
-    std::vector<std::pair<std::string, std::string>> attributes = {};  // of a NetCDF file
-    std::vector<std::size_t> lines = {};                               // of the rows in a CSV file that was read
-    std::vector<std::string> notes = {};                               // how a file was read: "separated by tabs"
+    std::vector<std::size_t> lines = {};  // of the rows in a CSV file that was read
+    std::vector<std::string> notes = {};  // how a file was read: "separated by tabs"
 
     std::size_t rows() const { return columns.empty() ? 0 : columns.front().values.size(); }
     std::vector<std::string> names() const;
@@ -45,10 +43,8 @@ void write_csv(std::ostream& out, const sim::Table& table);
 std::function<void(const std::string&)> to_stream(std::ostream& out);
 
 // The ending decides: .csv or .npz; numpy.load(file)["theta"] gives one array of float64 per channel, NaN where
-// undefined. Throws UnsupportedOption for other endings, and for .npz above 4 GiB.
+// undefined. Throws UnsupportedOption for other endings, and for .npz above 4 GiB; IoError.
 void write_table(const FileTarget& file, const sim::Table& table);
-
-// The ending decides: .csv, .npz or .nc. Throws UnsupportedOption for others, IoError.
 void write_table(const FileTarget& file, const ColumnTable& table);
 
 }  // namespace beamcam::output

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "output/data/records.hpp"
+#include "output/data/tables.hpp"
 #include "output/files/atomic_file.hpp"
 #include "scenes/commands/result_files.hpp"
 #include "scenes/figures/cam_drawing.hpp"
@@ -64,18 +65,12 @@ std::string beam_text(const sim::BeamJump& jump) {
                        rpm);
 }
 
-// Points of the outline at equal steps of the normal; `points` of a profile read them back.
+// Points of the outline at equal steps of the normal: the angle of the normal and the points are in the cam's frame,
+// `phi` is the turn of the cam at which a straight lever touches it there. `points` of a profile read them back.
 output::ColumnTable outline_table(const sim::Lever& lever) {
     constexpr int kPoints = 1800;  // a fifth of a degree
     output::ColumnTable table;
-    for (const auto& [name, unit, meaning] :
-         {std::tuple{"alpha", "rad", "Angle of the outward normal in the cam's frame."},
-          {"phi", "rad", "Turn of the cam at which a straight lever touches it there."},
-          {"x", "m", "Point of the outline in the cam's frame."},
-          {"y", "m", "Point of the outline in the cam's frame."},
-          {"arc_length", "m", "Length of the outline from the first point."},
-          {"curvature", "1/m", "Reciprocal of the radius of curvature."}})
-        table.columns.push_back({.name = name, .unit = unit, .meaning = meaning});
+    for (const char* name : {"alpha", "phi", "x", "y", "arc_length", "curvature"}) table.columns.push_back({name});
     for (int i = 0; i < kPoints; ++i) {
         const double alpha = sim::kFullTurn * i / kPoints;
         const sim::Lever::State state = lever.at_normal(alpha);

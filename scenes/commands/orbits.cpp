@@ -14,10 +14,8 @@
 #include "scenes/commands/result_files.hpp"
 #include "scenes/figures/command_figures.hpp"
 #include "scenes/format/units.hpp"
-#include "scenes/motions/identity.hpp"
 #include "scenes/motions/progress.hpp"
 #include "scenes/scene/files.hpp"
-#include "scenes/scene/version.hpp"
 #include "scenes/sweep/swept_rows.hpp"
 #include "sim/base/ode.hpp"
 
@@ -56,16 +54,7 @@ void need_narrow(const output::BranchTable& table, const render::Units& units) {
                         table.key, kWidest, value_text(table, table.start, units)));
 }
 
-bool is_data_file(const std::string& file) { return is_stdout(file) || file.ends_with(".json") || is_table(file); }
-
-// Attributes of a NetCDF file.
-std::vector<std::pair<std::string, std::string>> attributes_of(const Scene& scene) {
-    return {{"Conventions", "CF-1.8"},
-            {"source", fmt::format("beamcam {}", kVersion)},
-            {"title", "Periodic orbits"},
-            {"beamcam_scene", to_json(scene)},
-            {"beamcam_program", program_identity()}};
-}
+bool is_data_file(const std::string& file) { return is_stdout(file) || file.ends_with(".json"); }
 
 // True without orbits, too.
 bool all_rest(const std::vector<sim::PeriodicOrbit>& orbits) {
@@ -179,7 +168,7 @@ void reject_unused_options(const OrbitsArguments& args) {
 
 // Before any work.
 void require_writable_files(const OrbitsArguments& args, output::FileList& file_list) {
-    require_writable("-o", args.files.names, {".json", ".csv", ".npz", ".nc", ".png", ".svg", ".pdf"}, file_list);
+    require_writable("-o", args.files.names, {".json", ".png", ".svg", ".pdf"}, file_list);
     if (args.scene_file) {
         require_ending("--scene", *args.scene_file, {".json"});
         require_writable("--scene", {*args.scene_file}, {".json"}, file_list);
@@ -254,10 +243,6 @@ int act(const OrbitsArguments& args) {
     reject_unused_options(args);
     output::FileList file_list(args.common.force);
     require_writable_files(args, file_list);
-    if (args.sweep_file)
-        if (const std::string keys = differences_from_sweep(scene.problem, *args.sweep_file); !keys.empty())
-            inform(args.common,
-                   fmt::format("warning: --sweep {}: of another scene, with other {}", *args.sweep_file, keys));
     SweptImpacts swept;
     if (args.sweep_file && range) swept = swept_impacts(*args.sweep_file, range->key.path, range->from, range->to);
     if (args.sweep_file && range && swept.parameter.empty())
@@ -278,8 +263,7 @@ int act(const OrbitsArguments& args) {
                                         table.key, value_text(table, table.start, scene.units)));
     const int code =
         write_result({[&] { return output::orbits_json(table); }, [&] { return to_text(table, scene.units); },
-                      [&] { return branches_figure(table, swept, scene, args.files.lang); },
-                      [&] { return output::orbit_columns(table, attributes_of(scene)); }},
+                      [&] { return branches_figure(table, swept, scene, args.files.lang); }},
                      args.files, scene, args.common, file_list);
     if (code != kDone) return code;
     return written && followed && !table.orbits.empty() ? kDone : kSolverFailed;
@@ -297,9 +281,8 @@ void add_orbits(Program& program) {
         "`beamcam init --from pressed` writes the scene of the examples. The exit code is 4 if no orbit is found, or "
         "if none can be followed, and 3 if only the picture is missing: of orbits without impacts there is none.");
     add_scene(app, args.scene, args.common);
-    add_result_options(
-        app, args.files, args.common,
-        "Write the result, too: .json, .csv, .npz or .nc, or a branch diagram as .png, .svg or .pdf (repeatable)");
+    add_result_options(app, args.files, args.common,
+                       "Write the result, too: .json, or a branch diagram as .png, .svg or .pdf (repeatable)");
     add_option(
         app, "--over", args.over, "KEY=FROM:TO",
         fmt::format("Follow the orbits found at the start, stable or not, at most {}, over this key of the scene, "

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "output/data/netcdf_library.hpp"
-#include "output/data/tables.hpp"
 #include "output/files/atomic_file.hpp"
 #include "render/base/error.hpp"
 #include "scenes/figures/figure_files.hpp"
@@ -35,8 +33,6 @@ void write_to(const std::string& file, const Result& result, const ResultFiles& 
               output::FileList& file_list) {
     if (is_stdout(file))
         print_data(result.json());
-    else if (is_table(file))
-        output::write_table(file_list.target(file), result.table());
     else
         output::write_file(target_of(file, scene, file_list), content_of(result, files, scene, file));
 }
@@ -65,7 +61,6 @@ void require_writable(const char* option, const std::vector<std::string>& files,
     for (const std::string& file : files) {
         require_ending_or_stdout(option, file, endings);
         if (is_stdout(file)) continue;
-        if (file.ends_with(".nc")) output::netcdf_library();  // fails here where it is missing
         file_list.require_replaceable(file);
         output::AtomicFile(file_list.target(file));  // created and removed: fails here where it cannot be written
     }

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "output/data/file_list.hpp"
-#include "output/data/tables.hpp"
 #include "render/plot/figure.hpp"
 #include "scenes/commands/commands.hpp"
 
@@ -22,8 +21,7 @@ struct ResultFiles {
 
 struct Result {
     std::function<std::string()> json, text;
-    std::function<render::figure::Figure()> figure;   // for .png, .svg and .pdf
-    std::function<output::ColumnTable()> table = {};  // for .csv, .npz and .nc
+    std::function<render::figure::Figure()> figure;  // for .png, .svg and .pdf
 };
 
 // `what`: help of -o.

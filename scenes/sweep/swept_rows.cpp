@@ -1,17 +1,13 @@
 #include "scenes/sweep/swept_rows.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "output/data/file_list.hpp"
 #include "output/data/table_reader.hpp"
 #include "scenes/figures/motion_requests.hpp"
-#include "scenes/format/reader.hpp"
-#include "scenes/motions/identity.hpp"
 #include "scenes/scene/exit_code.hpp"
 #include "sim/problem/number_keys.hpp"
 #include "sim/sweep/attractor.hpp"
@@ -79,27 +75,6 @@ sim::Problem problem_at_row(sim::Problem problem, const std::string& file, int r
     problem.initial.angle = value("theta") + kAbove;
     problem.initial.angular_velocity = value("theta_dot");
     return problem;
-}
-
-std::string differences_from_sweep(const sim::Problem& problem, const std::string& file) {
-    const auto record = output::FileList::find(file);
-    if (!record || record->origin.scene.empty()) return "";
-    const std::optional<Scene> of_sweep = read_scene(Source{file, record->origin.scene}).scene;
-    if (!of_sweep || !of_sweep->sweep) return "";
-    sim::Problem like = of_sweep->problem;
-    like.initial = problem.initial;
-    like.solver = problem.solver;
-    for (const SweptKey& over : of_sweep->sweep->over)
-        if (const auto here = sim::number_key(problem, over.key)) set_number(like, over.key, here->value);
-    if (motion_key(like) == motion_key(problem)) return "";
-    std::vector<std::string> paths;
-    for (const sim::NumberKey& key : sim::number_keys(like)) {
-        const auto here = sim::number_key(problem, key.path);
-        const bool same = here && (here->value == key.value || (std::isnan(here->value) && std::isnan(key.value)));
-        if (!same) paths.push_back(key.path);
-    }
-    if (paths.empty()) return "laws or models";
-    return fmt::format("{}", fmt::join(paths, ", "));
 }
 
 }  // namespace beamcam::scenes

@@ -21,9 +21,4 @@ SweptImpacts swept_impacts(const std::string& file, const std::string& key, doub
 // state of vibration is not in the table; a transient restores it. Throws UsageError, SceneError.
 sim::Problem problem_at_row(sim::Problem problem, const std::string& file, int row);
 
-// The keys besides those of the start and of the sweep in which this problem differs from that of the sweep:
-// "cam.radius, gravity", "laws or models". Empty also if the list of files beside the table does not contain the scene
-// of the sweep.
-std::string differences_from_sweep(const sim::Problem& problem, const std::string& file);
-
 }  // namespace beamcam::scenes

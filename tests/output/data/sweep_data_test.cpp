@@ -122,13 +122,13 @@ void expect_samples(const Scratch& scratch, const SweepData& data) {
     EXPECT_EQ(std::system(("/usr/bin/python3 " + (scratch / "check.py").string()).c_str()), 0);
 }
 
-TEST(SweepData, HasAllSamplesInNetcdfOverTheEdgesOfItsChunks) {
+TEST(SweepData, HasAllSamplesInNetcdfOverTheEdgesOfItsBlocks) {
     const Scratch scratch;
     expect_samples(scratch,
-                   wide(3, 700, 2, [](std::uint64_t k) { return 60 + k % 41; }));          // several chunks in each row
-    expect_samples(scratch, wide(301, 7, 3, [](std::uint64_t k) { return 50 - k % 3; }));  // several rows in each chunk
-    expect_samples(scratch, wide(1, 3, 150'000, [](std::uint64_t k) { return k % 2; }));   // seeds beyond a chunk
-    expect_samples(scratch, wide(1, 2, 2, [](std::uint64_t k) { return 200'000 * k; }));   // a point beyond a chunk
+                   wide(3, 700, 2, [](std::uint64_t k) { return 60 + k % 41; }));          // several blocks in each row
+    expect_samples(scratch, wide(301, 7, 3, [](std::uint64_t k) { return 50 - k % 3; }));  // a row in each block
+    expect_samples(scratch, wide(1, 3, 150'000, [](std::uint64_t k) { return k % 2; }));   // seeds beyond a block
+    expect_samples(scratch, wide(1, 2, 2, [](std::uint64_t k) { return 200'000 * k; }));   // a point beyond a block
 }
 
 TEST(SweepData, TakesNoRoomForSamplesThatFewPointsHave) {

@@ -74,6 +74,18 @@ TEST(SweepParts, JoinToTheBytesOfTheWhole) {
     }
 }
 
+// HDF5 used to crash when the program ended after that.
+TEST(SweepParts, ANetcdfFileThatFindsNoRoomIsAnError) {
+    const Folder folder;
+    folder.write("s.json", kPartedScene);
+    const Finished done = shell(folder,
+                                "$BEAMCAM sweep s.json -q -o r.csv --shard 1/1; ls; ulimit -f 8; "
+                                "$BEAMCAM collect r.1of1.points -o r.nc");
+    EXPECT_EQ(done.code, 6);
+    EXPECT_THAT(done.err, HasSubstr("cannot write r.nc: File too large; the file is larger than this disk"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "r.nc"));
+}
+
 TEST(SweepParts, AreRejectedByName) {
     const Folder folder;
     folder.write("s.json", kPartedScene);
