@@ -22,11 +22,8 @@ ColumnTable read_columns(const std::filesystem::path& file, const std::function<
         throw IoError("cannot read " + name + ": NetCDF files are written only; write .npz or .csv, too");
     if (!text && ending != ".npz")
         throw IoError("cannot read " + name + ": tables end in .csv or .npz; export the table as .csv");
-    std::error_code error;
-    const std::filesystem::file_status status = std::filesystem::status(file, error);
-    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-        throw IoError("cannot read " + name + ": it is not a regular file");  // a pipe might never end
-    return text ? parse_csv(read_file(file), name) : parse_npz(read_file(file), name, wanted);
+    const std::string bytes = read_regular_file(file);
+    return text ? parse_csv(bytes, name) : parse_npz(bytes, name, wanted);
 }
 
 ColumnTable read_table(const std::filesystem::path& file) {

@@ -179,6 +179,14 @@ std::string read_file(const fs::path& file) {
     return content;
 }
 
+std::string read_regular_file(const fs::path& file) {
+    std::error_code error;
+    const fs::file_status status = fs::status(file, error);
+    if (fs::exists(status) && !fs::is_regular_file(status))
+        throw IoError("cannot read " + file.string() + ": it is not a regular file");
+    return read_file(file);
+}
+
 std::string random_digits() { return fmt::format("{:0{}x}", std::random_device()(), kRandomDigits); }
 
 bool is_temporary_name(std::string_view name) {

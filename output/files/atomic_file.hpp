@@ -64,6 +64,7 @@ void ensure_directory(const std::filesystem::path& directory);
 
 // The whole content, in one piece or in several. Throws IoError.
 std::string read_file(const std::filesystem::path& file);
+std::string read_regular_file(const std::filesystem::path& file);  // also throws for a pipe, which might never end
 void read_pieces(const std::filesystem::path& file, const std::function<void(std::string_view piece)>& visit);
 
 // Removes the temporary files that killed runs of this user left in a directory: those that nobody wrote to for an hour

@@ -22,10 +22,10 @@ constexpr std::size_t kLongestText = 256u << 20;  // [bytes]: a scene with a dri
 
 class PngDecoder {
   public:
-    explicit PngDecoder(const fs::path& file) : file_(file), bytes_(read_file(file)), png_(spng_ctx_new(0)) {
+    explicit PngDecoder(const fs::path& file) : file_(file), bytes_(read_regular_file(file)), png_(spng_ctx_new(0)) {
         if (!png_) throw std::bad_alloc();
         if (bytes_.empty()) refuse("the file is empty");
-        if (!bytes_.starts_with(kSignature)) refuse("it is not a PNG file");
+        if (!bytes_.starts_with(kSignature)) refuse("it is not a PNG file; ffmpeg -i FILM name-%04d.png gives the pictures of a film");
         require(spng_set_png_buffer(png_.get(), bytes_.data(), bytes_.size()));
         require(spng_set_chunk_limits(png_.get(), kLongestText, kLongestText));
         require(spng_get_ihdr(png_.get(), &header_));

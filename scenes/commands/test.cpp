@@ -21,7 +21,6 @@ struct TestArguments {
     Common common;
     std::string baselines;
     RegressionOptions test;  // those that options set directly
-    std::vector<std::string> tolerance;
     std::optional<std::string> report, junit;
 };
 
@@ -29,7 +28,7 @@ RegressionOptions options_of(const TestArguments& args) {
     if (!args.test.update.empty() && !args.test.only.empty())
         throw UsageError("--update and --filter exclude each other; --update runs only the entries that it names");
     RegressionOptions options = args.test;
-    options.tolerance = tolerance_argument(args.tolerance);
+    if (options.update == std::vector<std::string>{"all"}) options.update = {"*"};
     if (args.report) options.report = *args.report;
     options.run = run_options(args.common, "");
     return options;
@@ -52,18 +51,6 @@ void write_reports(const TestArguments& args, const RegressionResult& result, co
     }
 }
 
-// The patterns of --update, with `all` and `failed` resolved.
-std::vector<std::string> entries_to_update(const TestArguments& args, RegressionOptions options) {
-    if (args.test.update == std::vector<std::string>{"all"}) return {"*"};
-    if (args.test.update != std::vector<std::string>{"failed"}) return args.test.update;
-    options.update.clear();
-    options.report.reset();
-    std::vector<std::string> failed;
-    for (const EntryResult& entry : test_regression(args.baselines, options).entries)
-        if (!options.rule.passes(entry)) failed.push_back(entry.name);
-    return failed;
-}
-
 void print_verdicts(const TestArguments& args, const RegressionResult& result) {
     print_result(args.common, to_json(result), to_text(result));
     std::map<Verdict, std::size_t> counts;
@@ -81,14 +68,9 @@ void print_verdicts(const TestArguments& args, const RegressionResult& result) {
 
 int act(const TestArguments& args) {
     if (args.junit) require_ending("--junit", *args.junit, {".xml"});
-    RegressionOptions options = options_of(args);
+    const RegressionOptions options = options_of(args);
     output::FileList file_list(args.common.force);
     require_replaceable(args, file_list);
-    options.update = entries_to_update(args, options);
-    if (options.update.empty() && !args.test.update.empty()) {
-        inform(args.common, "no entry fails; nothing is updated");
-        return kDone;
-    }
     const RegressionResult result = test_regression(args.baselines, options);
     write_reports(args, result, options.rule, file_list);
     print_verdicts(args, result);
@@ -112,14 +94,11 @@ void add_test(Program& program) {
         ->type_name("NAME...");
     app.add_option("--update", args.test.update,
                    "Replace the references of these entries by the present pictures and motions (exit code 7 if that "
-                   "changes any); patterns, all and failed are allowed (without NAME: all)")
+                   "changes any); patterns and all are allowed (without NAME: all)")
         ->type_name("NAME...")
         ->expected(0, CLI::detail::expected_max_vector_size)
         ->default_str("all");
     app.add_flag("--strict", args.test.rule.strict, "Fail entries that are only equivalent");
-    add_list(app, "--tolerance", args.tolerance, "KEY=X,...",
-             "Tolerances that replace those of the file: channel=2, share=1e-4, ssim=0.97, motion=2e-5, impacts=1e-4 "
-             "(repeatable)");
     add_option(app, "--report", args.report, "DIR",
                "Directory for an HTML page with actual, expected and difference pictures");
     add_option(app, "--junit", args.junit, "FILE", "Write a JUnit report, .xml");

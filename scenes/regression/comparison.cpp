@@ -30,29 +30,19 @@ PictureComparison compare(const output::Raster& a, const output::Raster& b, int 
     PictureComparison c;
     c.size_a = fmt::format("{}x{}", a.width, a.height);
     c.size_b = fmt::format("{}x{}", b.width, b.height);
-    if (!c.same_size()) {
-        c.verdict = Verdict::different;
-        return c;
-    }
-    c.difference = output::difference(a, b, tolerance);
-    c.verdict = c.difference.identical()    ? Verdict::identical
-                : c.difference.changed == 0 ? Verdict::equivalent
-                                            : Verdict::different;
+    if (c.same_size()) c.difference = output::difference(a, b, tolerance);
     return c;
 }
 
-std::string to_text(const output::PictureDifference& d) {
+std::string to_text(const PictureComparison& c) {
+    if (!c.same_size()) return fmt::format("size {} became {}", c.size_a, c.size_b);
+    const output::PictureDifference& d = c.difference;
     if (d.identical()) return "no pixel changed";
     std::string text = fmt::format("{} of {} pixels ({:.3g} %), largest channel difference {} of 255", d.changed,
                                    d.pixels, 100 * d.share(), d.largest);
     if (d.changed > 0)
         text += fmt::format(", within {}x{}+{}+{}", d.box.width(), d.box.height(), d.box.left, d.box.top);
     return text + fmt::format(", SSIM {:.6f} (lowest window {:.4f})", d.ssim, d.lowest_ssim);
-}
-
-std::string to_text(const PictureComparison& c) {
-    if (!c.same_size()) return fmt::format("size {} became {}", c.size_a, c.size_b);
-    return to_text(c.difference);
 }
 
 std::string to_text(const output::TableDifference& d) {
@@ -78,20 +68,6 @@ std::string to_text(const output::TableDifference& d) {
     }
     if (same > 0)
         text += fmt::format("{} of {} columns identical in {} rows\n", same, d.columns.size(), d.rows_compared);
-    return text;
-}
-
-std::string to_text(const Comparison& c) {
-    std::string text = fmt::format("{}: {} and {}\n", name(c.verdict), c.a, c.b);
-    if (c.table) return text + to_text(*c.table);
-    if (c.pictures_a != c.pictures_b)
-        text += fmt::format("number of pictures: {} and {}\n", c.pictures_a, c.pictures_b);
-    const bool one = c.pictures_a == 1 && c.pictures_b == 1;
-    for (const PictureComparison& p : c.pictures)
-        text += one ? to_text(p) + "\n" : fmt::format("{}: {}: {}\n", name(p.verdict), p.a, to_text(p));
-    if (!one)
-        text += fmt::format("{} of {} pictures identical\n", std::min(c.pictures_a, c.pictures_b) - c.pictures.size(),
-                            std::min(c.pictures_a, c.pictures_b));
     return text;
 }
 

@@ -18,7 +18,7 @@ struct EntryContext {
     const Baseline& entry;
     EntryResult& result;
     const std::string renderer;  // id of what draws it
-    const Tolerance tolerance;
+    const Tolerance& tolerance;
     const References references;
     ReferenceUpdate update;
     std::optional<std::filesystem::path> report;  // folder of the report, for pictures that are not identical

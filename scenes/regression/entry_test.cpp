@@ -37,7 +37,7 @@ EntryTest::EntryTest(const Baselines& baselines, const Baseline& entry, const Re
       test_{entry,
             result,
             renderer,
-            entry.tolerance.overridden_by(options.tolerance),
+            entry.tolerance,
             References(baselines.references, entry.name, !options.update.empty()),
             {},
             options.report,

@@ -19,7 +19,6 @@ struct RegressionOptions {
     std::vector<std::string> only;    // names or patterns such as "fall-*"; empty: all
     std::vector<std::string> update;  // the same; only these are run, and their references are replaced
     PassRule rule;
-    Tolerance tolerance;                          // replaces those of the entries
     std::optional<std::filesystem::path> report;  // folder for actual, expected and difference pictures
     RunOptions run;
 };

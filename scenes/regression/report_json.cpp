@@ -16,46 +16,12 @@ Node box(const output::PixelBox& b) {
     return object_node({{"left", b.left}, {"top", b.top}, {"width", b.width()}, {"height", b.height()}});
 }
 
-Node picture(const PictureComparison& p) {
-    Node out =
-        object_node({{"a", p.a}, {"b", p.b}, {"verdict", name(p.verdict)}, {"size_a", p.size_a}, {"size_b", p.size_b}});
-    if (!p.same_size()) return out;
-    const output::PictureDifference& d = p.difference;
-    add(out, "pixels", d.pixels);
-    add(out, "changed", d.changed);
-    add(out, "share", d.share());
-    add(out, "largest", d.largest);
-    add(out, "box", box(d.box));
-    add(out, "ssim", d.ssim);
-    add(out, "lowest_ssim", d.lowest_ssim);
-    return out;
-}
-
-Node table(const output::TableDifference& d) {
-    Node columns = object_node();
-    for (const output::ColumnDifference& c : d.columns)
-        add(columns, c.name,
-            object_node({{"identical", c.identical},
-                         {"largest", c.largest},
-                         {"t", c.t},
-                         {"range", c.range},
-                         {"share", c.share},
-                         {"undefined", c.undefined},
-                         {"texts", c.texts}}));
-    return object_node({{"rows_a", d.rows_a},
-                        {"rows_b", d.rows_b},
-                        {"rows_compared", d.rows_compared},
-                        {"only_in_a", d.only_in_a},
-                        {"only_in_b", d.only_in_b},
-                        {"columns", std::move(columns)}});
-}
-
 Node picture_part(const EntryResult& entry) {
     Node changed = object_node();
     for (const auto& [number, frame] : entry.frames) {
         if (frame.verdict == Verdict::identical) continue;
         Node one = object_node({{"verdict", name(frame.verdict)}, {"sha256", frame.sha256}});
-        if (frame.compared) add(one, "difference", picture(frame.comparison));
+        if (frame.compared) add(one, "difference", to_node(frame.comparison));
         add(changed, std::to_string(number), std::move(one));
     }
     return object_node({{"verdict", name(*entry.picture)},
@@ -79,17 +45,37 @@ Node entry_node(const EntryResult& entry) {
 
 }  // namespace
 
-std::string to_json(const Comparison& c) {
-    Node out = object_node({{"a", c.a}, {"b", c.b}, {"verdict", name(c.verdict)}});
-    if (c.table) {
-        add(out, "table", table(*c.table));
-        return to_text(out);
-    }
-    add(out, "pictures_a", c.pictures_a);
-    add(out, "pictures_b", c.pictures_b);
-    add(out, "identical", std::min(c.pictures_a, c.pictures_b) - c.pictures.size());
-    add(out, "pictures", array_node(c.pictures, picture));
-    return to_text(out);
+Node to_node(const PictureComparison& p) {
+    Node out = object_node({{"size_a", p.size_a}, {"size_b", p.size_b}});
+    if (!p.same_size()) return out;
+    const output::PictureDifference& d = p.difference;
+    add(out, "pixels", d.pixels);
+    add(out, "changed", d.changed);
+    add(out, "share", d.share());
+    add(out, "largest", d.largest);
+    add(out, "box", box(d.box));
+    add(out, "ssim", d.ssim);
+    add(out, "lowest_ssim", d.lowest_ssim);
+    return out;
+}
+
+Node to_node(const output::TableDifference& d) {
+    Node columns = object_node();
+    for (const output::ColumnDifference& c : d.columns)
+        add(columns, c.name,
+            object_node({{"identical", c.identical},
+                         {"largest", c.largest},
+                         {"t", c.t},
+                         {"range", c.range},
+                         {"share", c.share},
+                         {"undefined", c.undefined},
+                         {"texts", c.texts}}));
+    return object_node({{"rows_a", d.rows_a},
+                        {"rows_b", d.rows_b},
+                        {"rows_compared", d.rows_compared},
+                        {"only_in_a", d.only_in_a},
+                        {"only_in_b", d.only_in_b},
+                        {"columns", std::move(columns)}});
 }
 
 std::string to_json(const RegressionResult& result) {

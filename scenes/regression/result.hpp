@@ -22,7 +22,7 @@ struct FrameResult {
     bool compared = false;                               // with a reference picture
     std::filesystem::path expected, actual, difference;  // files, if they exist
     double weight() const { return compared ? comparison.weight() : 1e300; }
-    bool has_same_pixels() const { return compared && comparison.same_size() && comparison.difference.identical(); }
+    bool has_same_pixels() const { return compared && comparison.identical(); }
 };
 
 using ChangedFrames = std::vector<std::pair<long, const FrameResult*>>;  // with their numbers

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "scenes/format/keys.hpp"
 
@@ -18,12 +16,12 @@ struct Tolerance {
     std::optional<double> impacts;  // relative, of an impact's and a summary's numbers; default 1e-4
 
     // The values of `over`; where it has none, the values of this.
-    Tolerance overridden_by(const Tolerance& over) const;
+    Tolerance overridden_by(const Tolerance& over) const {
+        return {over.channel ? over.channel : channel, over.share ? over.share : share, over.ssim ? over.ssim : ssim,
+                over.motion ? over.motion : motion, over.impacts ? over.impacts : impacts};
+    }
 };
 
 void visit(SceneVisitor& v, Tolerance& tolerance);
-
-// The tolerance that `key=value` texts of --tolerance give. Throws UsageError.
-Tolerance tolerance_argument(const std::vector<std::string>& texts);
 
 }  // namespace beamcam::scenes

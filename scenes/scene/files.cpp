@@ -9,16 +9,20 @@
 #include <utility>
 
 #include "output/files/numbers.hpp"
-#include "output/image/picture_files.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
-using output::NumberedName;
-
 std::string normal(std::string_view file) { return std::filesystem::path(file).lexically_normal().generic_string(); }
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+// The parts of a name such as "fall-####.png" before and after the number.
+struct NumberedName {
+    explicit NumberedName(std::string_view pattern)
+        : before(pattern.substr(0, pattern.find('#'))), after(pattern.substr(pattern.find_last_of('#') + 1)) {}
+    std::string before, after;
+};
 
 std::string pattern_of(std::string_view file) {
     const NumberedName parts(normal(file));
@@ -105,9 +109,10 @@ std::string numbered_file(std::string_view pattern, long number) {
 
 std::optional<long> number_of(std::string_view pattern, std::string_view file) {
     const NumberedName parts(pattern);
-    const auto digits = parts.number_in(file);
-    const auto number = output::number_in<long>(digits.value_or(""));
-    return number && numbered_file(pattern, *number) == file ? number : std::nullopt;
+    const std::size_t others = parts.before.size() + parts.after.size();
+    if (file.size() <= others) return std::nullopt;
+    const auto number = output::number_in<long>(file.substr(parts.before.size(), file.size() - others));
+    return number && *number >= 0 && numbered_file(pattern, *number) == file ? number : std::nullopt;
 }
 
 void FileClaims::add(std::string_view file, std::size_t owner) { claims_.push_back({std::string(file), owner}); }

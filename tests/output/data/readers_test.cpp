@@ -8,7 +8,6 @@
 #include "output/files/inflate.hpp"
 #include "output/film/video.hpp"
 #include "output/film/video_library.hpp"
-#include "output/image/picture_files.hpp"
 #include "output/image/png.hpp"
 #include "output/image/png_reader.hpp"
 #include "output/image/raster.hpp"
@@ -169,21 +168,6 @@ TEST(Inflater, GivesOutNoMoreThanItsBudget) {
     EXPECT_EQ(inflater.deflate(packed, zeros.size()), zeros);
     EXPECT_EQ(inflater.deflate(packed, zeros.size()), std::nullopt);
     EXPECT_EQ(Inflater(100000).deflate(packed, 99999999), std::nullopt);
-}
-
-TEST(PictureFiles, AreThoseOfADirectoryOrSequenceInTheOrderOfTheirNumbers) {
-    Scratch scratch;
-    std::vector<std::filesystem::path> expected;
-    for (const int k : {9, 10, 100}) {
-        expected.push_back(scratch / ("f-" + std::to_string(k) + ".png"));
-        write_png(expected.back(), flat_image(4, 4, 0xff000000u + static_cast<std::uint32_t>(k)));
-    }
-    write_file(scratch / "notes.txt", "no picture");
-    EXPECT_EQ(picture_files(scratch.path()), expected);
-    EXPECT_EQ(picture_files(scratch / "f-#.png"), expected);
-    EXPECT_EQ(picture_files(expected[1]), std::vector{expected[1]});
-    for (const char* none : {"g-#.png", "absent.png", "notes.txt"})
-        EXPECT_NE(io_error_of([&] { picture_files(scratch / none); }).find(none), std::string::npos);
 }
 
 }  // namespace
