@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "output/data/agreement.hpp"
 #include "output/files/errors.hpp"
 #include "output/files/target.hpp"
 #include "output/files/work.hpp"
@@ -28,6 +27,14 @@ void write_impacts(const FileTarget& file, const sim::Result& result);
 struct ChannelExtremum {
     sim::Channel channel;
     sim::Extremum extremum;
+};
+// Agreement of the motion with measured data of one channel: differences, measured minus computed, where both have a
+// value and θ is reproducible.
+struct Agreement {
+    std::string label, file;
+    sim::Channel channel;
+    std::size_t rows = 0;
+    double rms = 0;
 };
 // "units" lists all channels of the problem.
 std::string summary_json(const sim::Problem& problem, const sim::Result& result,

@@ -13,16 +13,16 @@ namespace {
 
 struct CodecRow {
     Codec codec;
-    const char *name, *title;
+    const char *name, *title, *encoder;
     bool alpha, even;
     int usual, worst;  // of crf; worst 0: none
 };
-constexpr std::array kEntries{CodecRow{Codec::h264, "h264", "H.264", false, true, 18, 51},
-                              CodecRow{Codec::vp9, "vp9", "VP9", true, true, 24, 63},
-                              CodecRow{Codec::prores, "prores", "ProRes 4444", true, false, 0, 0},
-                              CodecRow{Codec::ffv1, "ffv1", "FFV1", true, false, 0, 0},
-                              CodecRow{Codec::gif, "gif", "GIF", false, false, 0, 0},
-                              CodecRow{Codec::webp, "webp", "WebP", true, false, 0, 0}};
+constexpr std::array kEntries{CodecRow{Codec::h264, "h264", "H.264", "libx264", false, true, 18, 51},
+                              CodecRow{Codec::vp9, "vp9", "VP9", "libvpx-vp9", true, true, 24, 63},
+                              CodecRow{Codec::prores, "prores", "ProRes 4444", "prores_ks", true, false, 0, 0},
+                              CodecRow{Codec::ffv1, "ffv1", "FFV1", "ffv1", true, false, 0, 0},
+                              CodecRow{Codec::gif, "gif", "GIF", "gif", false, false, 0, 0},
+                              CodecRow{Codec::webp, "webp", "WebP", "libwebp_anim", true, false, 0, 0}};
 
 const CodecRow& row_of(Codec codec) { return *std::ranges::find(kEntries, codec, &CodecRow::codec); }
 
@@ -57,6 +57,7 @@ std::string plain(double value) {
 
 const char* name(Codec codec) { return row_of(codec).name; }
 const char* title(Codec codec) { return row_of(codec).title; }
+const char* encoder_name(Codec codec) { return row_of(codec).encoder; }
 std::optional<Codec> codec_named(std::string_view text) {
     const auto at = std::ranges::find(kEntries, text, [](const CodecRow& e) { return std::string_view(e.name); });
     return at == kEntries.end() ? std::nullopt : std::optional(at->codec);
@@ -74,6 +75,14 @@ std::optional<QualityScale> quality_scale(Codec codec) {
     const CodecRow& e = row_of(codec);
     if (e.worst == 0) return std::nullopt;
     return QualityScale{e.usual, e.worst};
+}
+
+std::string quality_problem(Codec codec, std::optional<int> crf) {
+    const auto scale = quality_scale(codec);
+    if (!crf || (scale && *crf >= 0 && *crf <= scale->worst)) return {};
+    return scale ? "crf " + std::to_string(*crf) + " is not possible; use 0 (best) to " + std::to_string(scale->worst) +
+                       ", " + std::to_string(scale->usual) + " looks lossless"
+                 : std::string(title(codec)) + " has no crf, because its quality is fixed; remove it";
 }
 
 std::string format_problem(std::string_view ending, Codec codec, bool transparent) {

@@ -15,8 +15,9 @@
 namespace beamcam::output {
 
 enum class Codec { h264, vp9, prores, ffv1, gif, webp };
-const char* name(Codec codec);   // "h264"
-const char* title(Codec codec);  // "H.264"
+const char* name(Codec codec);          // "h264"
+const char* title(Codec codec);         // "H.264"
+const char* encoder_name(Codec codec);  // FFmpeg's: "libx264"
 std::optional<Codec> codec_named(std::string_view name);
 
 // The default codec of files with this ending (with its dot); nothing: no film has this ending.
@@ -52,6 +53,7 @@ std::optional<QualityScale> quality_scale(Codec codec);  // absent: the codec ha
 
 // Why such a film is not possible, with a remedy; empty: it is possible. `ending` with the dot.
 std::string format_problem(std::string_view ending, Codec codec, bool transparent);
+std::string quality_problem(Codec codec, std::optional<int> crf);
 std::string size_problem(Codec codec, int width, int height);
 std::string rate_problem(Codec codec, double fps);
 

@@ -1,7 +1,5 @@
 #include "output/film/video_library.hpp"
 
-#include <utility>
-
 #include "render/base/modules.hpp"
 
 namespace beamcam::output {
@@ -19,13 +17,8 @@ const VideoLibrary& video_library() {
 VideoCapabilities video_capabilities() {
     const VideoLibrary& library = video_library();
     VideoCapabilities found{library.versions(), {}};
-    constexpr std::pair<const char*, const char*> kEncoders[] = {{"H.264 (libx264)", "libx264"},
-                                                                 {"VP9 (libvpx)", "libvpx-vp9"},
-                                                                 {"ProRes", "prores_ks"},
-                                                                 {"FFV1", "ffv1"},
-                                                                 {"GIF", "gif"},
-                                                                 {"WebP (libwebp)", "libwebp_anim"}};
-    for (const auto& [name, encoder] : kEncoders) found.encoders[name] = library.has_encoder(encoder);
+    for (const Codec codec : {Codec::h264, Codec::vp9, Codec::prores, Codec::ffv1, Codec::gif, Codec::webp})
+        found.encoders[title(codec)] = library.has_encoder(encoder_name(codec));
     return found;
 }
 

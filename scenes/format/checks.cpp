@@ -67,38 +67,16 @@ const Node* written_value(const Node& scene, const std::string& key) {
     return at;
 }
 
-// The objects "set" of the motions that an output compares.
-static std::vector<const Node*> compared_sets_of(const Node& output) {
-    std::vector<const Node*> out;
-    const Member* compare = output.find("compare");
-    for (std::size_t k = 0; compare && k < compare->value.items.size(); ++k)
-        if (const Member* set = compare->value.items[k].find("set")) out.push_back(&set->value);
-    return out;
-}
+// The objects "set" of the motions that outputs compare.
 static std::vector<const Node*> compared_sets(const Node& scene) {
     std::vector<const Node*> out;
     const Member* outputs = scene.find("outputs");
-    for (std::size_t i = 0; outputs && i < outputs->value.items.size(); ++i)
-        std::ranges::copy(compared_sets_of(outputs->value.items[i]), std::back_inserter(out));
-    return out;
-}
-
-void check_overrides(ObjectReader& r) {
-    const Member* outputs = r.node() ? r.node()->find("outputs") : nullptr;
     for (std::size_t i = 0; outputs && i < outputs->value.items.size(); ++i) {
-        const Node& output = outputs->value.items[i];
-        const std::vector<const Node*> sets = compared_sets_of(output);
-        if (sets.empty() || sets.size() < output.find("compare")->value.items.size()) continue;
-        for (const Member& member : sets.front()->members) {
-            const Node* given = written_value(*r.node(), member.key);
-            if (given && given->place.source > 0 &&
-                std::ranges::all_of(sets, [&](const Node* set) { return set->find(member.key) != nullptr; }))
-                r.diagnostics().warning(
-                    given->place, fmt::format("{} has no effect on outputs.{}, whose \"compare\" sets it for each "
-                                              "motion; set outputs.{}.compare.0.set.{}, or \"outputs\" to []",
-                                              member.key, i, i, member.key));
-        }
+        const Member* compare = outputs->value.items[i].find("compare");
+        for (std::size_t k = 0; compare && k < compare->value.items.size(); ++k)
+            if (const Member* set = compare->value.items[k].find("set")) out.push_back(&set->value);
     }
+    return out;
 }
 
 static bool in_degrees(std::string_view text) {

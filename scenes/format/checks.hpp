@@ -24,8 +24,6 @@ void check_words(ObjectReader& r, const char* key, const std::string& text);
 // Labels and titles of figures contain markup.
 void check_markup(ObjectReader& r, const std::string& key, const std::string& text);
 void check_physics(ObjectReader& r, const sim::Problem& problem);
-// Warns of a key of --set that an output sets again for each motion that it compares.
-void check_overrides(ObjectReader& r);
 // Pictures use the units in which the scene gives its angle and its speed.
 void infer_units(ObjectReader& r, render::Units& units);
 // The unit of an option's angle or speed becomes theirs; a plain number leaves them.

@@ -112,11 +112,7 @@ void check_format(ObjectReader& r, const PictureOutput& video) {
     r.reject_if("fps", output::rate_problem(codec, video.span.fps.value()));
     if (r.has("preset") && codec != output::Codec::h264)
         r.reject("preset", ": only H.264 has presets, {} has none; remove the key", title(codec));
-    const auto quality = output::quality_scale(codec);
-    if (r.has("crf") && !quality)
-        r.reject("crf", ": {} has no crf; remove the key", title(codec));
-    else if (quality && video.encoding.crf.value_or(0) > quality->worst)
-        r.reject("crf", " = {} is outside 0 … {}, the range of {}", *video.encoding.crf, quality->worst, title(codec));
+    r.reject_if("crf", output::quality_problem(codec, video.encoding.crf));
 }
 
 }  // namespace

@@ -79,7 +79,6 @@ void visit(SceneVisitor& v, Scene& scene) {
         },
         "Units of angles and speeds in films and figures.", nullptr);
     v.check([&scene](ObjectReader& r) {
-        check_overrides(r);
         check_physics(r, scene.problem);
         if (!r.diagnostics().any())
             scene.notes = sim::assumptions(scene.problem, written_value(*r.node(), "contact.stiffness") != nullptr);

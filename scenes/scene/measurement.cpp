@@ -1,6 +1,7 @@
 #include "scenes/scene/measurement.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "render/draw/markup.hpp"
 
@@ -43,12 +44,23 @@ sim::TableRequest Measurement::request() const {
 
 std::vector<output::Agreement> agreements(const Measurement& measurement, const sim::Table& table,
                                           const sim::Result& result) {
+    const auto is_reproducible = [&](double t) {
+        return std::ranges::none_of(result.not_reproducible, [t](const sim::Interval& lost) {
+            return t > lost.from && !(lost.to && t > *lost.to);
+        });
+    };
     std::vector<output::Agreement> out;
     for (std::size_t c = 0; c < measurement.columns.size(); ++c) {
-        out.push_back(output::agreement(measurement.times, measurement.values[c], table.values[c + 1], result));
-        out.back().label = render::to_plain(measurement.label);
-        out.back().file = measurement.file;
-        out.back().channel = measurement.columns[c].first;
+        output::Agreement& each = out.emplace_back(
+            output::Agreement{render::to_plain(measurement.label), measurement.file, measurement.columns[c].first});
+        double squares = 0;
+        for (std::size_t i = 0; i < measurement.times.size(); ++i) {
+            const double difference = measurement.values[c][i] - table.values[c + 1][i];
+            if (!std::isfinite(difference) || !is_reproducible(measurement.times[i])) continue;
+            ++each.rows;
+            squares += difference * difference;
+        }
+        if (each.rows > 0) each.rms = std::sqrt(squares / static_cast<double>(each.rows));
     }
     return out;
 }

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "output/data/agreement.hpp"
+#include "output/data/records.hpp"
 #include "sim/observe/request.hpp"
 
 namespace beamcam::scenes {
@@ -35,7 +35,7 @@ struct Measurement {
     sim::TableRequest request() const;
 };
 
-// The agreement for each channel; `table` is the result of request().
+// The agreement for each channel; `table` is the result of request(), and `result` has a horizon.
 std::vector<output::Agreement> agreements(const Measurement& measurement, const sim::Table& table,
                                           const sim::Result& result);
 

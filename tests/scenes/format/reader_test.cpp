@@ -395,15 +395,6 @@ TEST(Reader, TheEndingChoosesTheCodec) {
     EXPECT_EQ(std::get<PictureOutput>(reading.scene->outputs[1]).span.fps, (FrameRate{25, 1}));
 }
 
-TEST(Reader, WarnsOfAnOverrideThatEachComparedMotionReplaces) {
-    const std::string scene = R"({"outputs": [{"type": "video", "compare": [{"set": {"cam.speed": 5, "beam.modes": 3}},
-        {"set": {"cam.speed": 6}}]}]})";
-    const auto warnings = [&](const char* change) { return messages(read_scene({"s.json", scene, true}, {change})); };
-    EXPECT_THAT(warnings("cam.speed=7"), ElementsAre(HasSubstr("cam.speed has no effect on outputs.0")));
-    EXPECT_THAT(warnings("beam.modes=4"), ::testing::IsEmpty());
-    EXPECT_THAT(messages(read(scene)), ::testing::IsEmpty());
-}
-
 TEST(Reader, ComparedMotionsAreTheSceneWithChanges) {
     const Reading reading = read(R"({"beam": {"modes": 5}, "outputs": [{"type": "video", "compare": [{"label": "a"},
         {"label": "b", "set": {"cam.speed": 5, "beam.model": "rigid"}}, {"set": {"cam": null}}]}]})");

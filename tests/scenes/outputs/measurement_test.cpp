@@ -1,4 +1,6 @@
 // Measured data as machines write them: the columns that the scene names are all that matters.
+#include "scenes/scene/measurement.hpp"
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -217,6 +219,21 @@ TEST(SweptColumn, LiesBesideTheSceneAndInTheWorkingDirectoryOfTheCommand) {
     const Finished pipe = shell(folder, "timeout 20 $BEAMCAM check rel/x.json");
     EXPECT_EQ(pipe.code, 3);
     EXPECT_THAT(pipe.out + pipe.err, HasSubstr("not a regular file"));
+}
+
+TEST(Agreement, CountsRowsWithBothValuesWhereTheMotionIsReproducible) {
+    sim::Result result;
+    result.not_reproducible = {{3, 4}};
+    Measurement data;
+    data.columns = {{{sim::ChannelKind::theta, 0}, "angle"}};
+    data.times = {0, 1, 1.5, 2, 2.5, 3.5, 3.9, 4.5};
+    data.values = {{1, 2, 3, NAN, 5, 10, 20, 7}};
+    const auto found = agreements(data, {{}, {data.times, {1, 1, 1, 1, 9, 30, 30, 7}}}, result);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].rows, 5u);
+    EXPECT_DOUBLE_EQ(found[0].rms, std::sqrt((0 + 1 + 4 + 16 + 0) / 5.0));
+    data.times.clear(), data.values = {{}};
+    EXPECT_EQ(agreements(data, {{}, {{}, {}}}, result)[0].rows, 0u);
 }
 
 }  // namespace
