@@ -15,8 +15,8 @@ namespace {
 struct SimulateArguments {
     Common common;
     std::string scene;
-    std::optional<std::string> trajectory, shapes, impacts, summary, state;
-    KeyOptions rate{"trajectory"}, times{"trajectory"}, channels{"trajectory"}, state_at{"state"};
+    std::optional<std::string> trajectory, impacts, summary, state;
+    KeyOptions rows{"trajectory"}, channels{"trajectory"}, state_at{"state"};
     bool horizon = false;
 };
 
@@ -24,18 +24,9 @@ TrajectoryOutput trajectory_output(const SimulateArguments& args, const Scene& s
     const std::string file = args.trajectory.value_or("-");
     require_ending_or_stdout("--trajectory", file, {".csv", ".npz"});
     auto table = std::get<TrajectoryOutput>(read_output(object_node({{"type", TrajectoryOutput::kType}}),
-                                                        {&args.rate, &args.times, &args.channels}, scene, args.scene,
-                                                        args.common));
+                                                        {&args.rows, &args.channels}, scene, args.scene, args.common));
     table.file = file;
     return table;
-}
-
-ShapesOutput shapes_output(const SimulateArguments& args, const Scene& scene) {
-    require_ending("--shapes", *args.shapes, {".csv", ".npz"});
-    auto shapes = std::get<ShapesOutput>(read_output(object_node({{"type", ShapesOutput::kType}}),
-                                                     {&args.rate, &args.times}, scene, args.scene, args.common));
-    shapes.file = *args.shapes;
-    return shapes;
 }
 
 StateOutput state_output(const SimulateArguments& args, const Scene& scene) {
@@ -61,10 +52,9 @@ SummaryOutput summary_output(const SimulateArguments& args, const Scene& scene) 
 // Without a file name the table goes to standard output if its options were given, else the summary.
 std::vector<Output> simulate_outputs(const SimulateArguments& args, const Scene& scene) {
     std::vector<Output> outputs;
-    const bool has_rows = args.rate.any() || args.times.any(), has_summary = args.summary || args.horizon;
-    if (args.trajectory || (args.channels.any() && !has_summary) || (has_rows && !args.shapes))
+    const bool has_rows = args.rows.any(), has_summary = args.summary || args.horizon;
+    if (args.trajectory || has_rows || (args.channels.any() && !has_summary))
         outputs.push_back(trajectory_output(args, scene));
-    if (args.shapes) outputs.push_back(shapes_output(args, scene));
     if (args.impacts) {
         require_ending_or_stdout("--impacts", *args.impacts, {".json", ".csv"});
         outputs.push_back(ImpactsOutput{*args.impacts});
@@ -102,9 +92,8 @@ void add_simulate(Program& program) {
     add_scene(app, args.scene, args.common);
     add_option(app, "--trajectory", args.trajectory, "FILE",
                "Table of channels against time, .csv or .npz; - is standard output (CSV)");
-    add_option(app, "--shapes", args.shapes, "FILE", "Deflection along the beam against time, .csv or .npz");
-    args.rate.add(app, "--rate", "rate", "HZ", "Of --trajectory (default: adaptive) and --shapes (default: 1000).");
-    args.times.add_list(app, "--times", "times", "T,T,...", "In place of --rate.");
+    args.rows.add(app, "--rate", "rate", "HZ", "Of --trajectory (default: adaptive).");
+    args.rows.add_list(app, "--times", "times", "T,T,...", "In place of --rate.");
     args.channels.add_list(app, "--channels", "channels", "CHANNEL,...",
                            "Of --trajectory, and of --summary those with extrema.");
     add_option(app, "--impacts", args.impacts, "FILE",

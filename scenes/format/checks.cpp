@@ -126,15 +126,7 @@ void check_picture(ObjectReader& r, Picture& picture) {
     check_layout(r, picture);
 }
 
-// ---- tables, files -----------------------------------------------------------------------------
-
-void limit_rows(ObjectReader& r, double rate, double rows_each) {
-    constexpr double kMostRows = 20'000'000;  // 160 MB for each channel
-    const double rows = rate * r.context().scene.end_time * rows_each;
-    if (r.has("rate") && rows > kMostRows)
-        r.reject_value(r.place("rate"), "rate", " gives {:.3g} rows, but a table has at most {:.3g}; reduce the rate",
-                       rows, kMostRows);
-}
+// ---- files -------------------------------------------------------------------------------------
 
 namespace {
 

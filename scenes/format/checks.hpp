@@ -41,8 +41,7 @@ void set_default_codec(PictureOutput& video);  // that of its ending
 void check_video(ObjectReader& r, PictureOutput& video);
 void check_figure(ObjectReader& r, FigureOutput& figure);
 void check_series_panel(ObjectReader& r, const SeriesPanel& panel);
-void limit_rows(ObjectReader& r, double rate, double rows_each);  // `rows_each`: rows at each of the times k/rate
-void check_outputs(ObjectReader& r, Scene& scene);                // also stores the position of each
+void check_outputs(ObjectReader& r, Scene& scene);  // also stores the position of each
 
 // Why a diagram cannot show this value of the points of the scene's sweep; empty if it can.
 std::string problem_with_value(std::string_view diagram, const std::string& value, const Scene& scene);

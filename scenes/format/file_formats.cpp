@@ -57,28 +57,6 @@ void visit_file(SceneVisitor& v, std::string& file, std::initializer_list<const 
     });
 }
 
-static void visit_times(SceneVisitor& v, std::vector<double>& times) {
-    v.numbers("times", times, sim::dimension::kTime, kFromStart, {1}, "Rows at exactly these times, in this order.");
-    v.exclusive("rate", "times");
-}
-
-void visit_rows(SceneVisitor& v, double& rate, std::vector<double>& times) {
-    v.number(sim::written_if(times.empty(), "rate"), rate, sim::dimension::kFrequency, sim::kPositive,
-             "Rows at the times k/rate, and at the end.");
-    visit_times(v, times);
-}
-
-void visit_rows(SceneVisitor& v, std::optional<double>& rate, std::vector<double>& times) {
-    v.number(
-        sim::written_if(times.empty(), "rate"), rate, sim::dimension::kFrequency, sim::kPositive,
-        "Rows at the times k/rate, and at the end. \"adaptive\": as many rows as the curves of the channels, drawn "
-        "from the start to the end, need to be within about 0.2 % of their ranges, so that peaks are complete; two "
-        "rows at one time are the sides of a jump. Without \"channels\" those of single modes and the separation do "
-        "not count.",
-        "adaptive");
-    visit_times(v, times);
-}
-
 void visit_exaggeration(SceneVisitor& v, std::optional<double>& factor, const char* meaning) {
     v.number(sim::written_if(factor.has_value(), "exaggeration"), factor, sim::kPlainNumber,
              sim::between(1, 1e6, "is outside 1 (true shape) … 1e6"), meaning, "auto");

@@ -35,9 +35,6 @@ ValueFormat file_format(std::string& file, std::initializer_list<const char*> en
 // The key "file" of an output; without it the name is that of the scene and `ending`.
 void visit_file(SceneVisitor& v, std::string& file, std::initializer_list<const char*> endings, const char* ending,
                 const char* meaning = "Name of the file", const char* note = "");
-// The keys "rate" and "times" of the rows of a table; an absent rate is "adaptive".
-void visit_rows(SceneVisitor& v, double& rate, std::vector<double>& times);
-void visit_rows(SceneVisitor& v, std::optional<double>& rate, std::vector<double>& times);
 // The factor of the deflection; absent: "auto".
 void visit_exaggeration(SceneVisitor& v, std::optional<double>& factor, const char* meaning);
 // A number, or a text with a unit. Its dimension depends on other keys: nullopt if they have an error.

@@ -1,4 +1,4 @@
-// Outputs with numbers of the motion or of the sweep: "trajectory", "shapes", "impacts", "state", "summary", "sweep".
+// Outputs with numbers of the motion or of the sweep: "trajectory", "impacts", "state", "summary", "sweep".
 #include "scenes/outputs/data_outputs.hpp"
 
 #include <fmt/format.h>
@@ -27,9 +27,21 @@ void TrajectoryOutput::visit(SceneVisitor& v) {
     visit_file(v, file, {".csv", ".npz"}, ".csv");
     v.value("channels", channels_format(channels),
             "Columns, in this order; the time is always the first. By default all channels.");
-    visit_rows(v, rate, times);
+    v.number(
+        sim::written_if(times.empty(), "rate"), rate, sim::dimension::kFrequency, sim::kPositive,
+        "Rows at the times k/rate, and at the end. \"adaptive\": as many rows as the curves of the channels, drawn "
+        "from the start to the end, need to be within about 0.2 % of their ranges, so that peaks are complete; two "
+        "rows at one time are the sides of a jump. Without \"channels\" those of single modes and the separation do "
+        "not count.",
+        "adaptive");
+    v.numbers("times", times, sim::dimension::kTime, kFromStart, {1}, "Rows at exactly these times, in this order.");
+    v.exclusive("rate", "times");
     v.check([this](ObjectReader& r) {
-        if (rate) limit_rows(r, *rate, 1);
+        constexpr double kMostRows = 20'000'000;  // 160 MB for each channel
+        const double count = rate.value_or(0) * r.context().scene.end_time;
+        if (count > kMostRows)
+            r.reject_value(r.place("rate"), "rate",
+                           " gives {:.3g} rows, but a table has at most {:.3g}; reduce the rate", count, kMostRows);
     });
 }
 
@@ -69,41 +81,6 @@ void plan(Planner& planner, const TrajectoryOutput& table, const ResolvedOutput&
 
 static std::string write(const TrajectoryOutput&, const DataFile& data, const DataSource& from) {
     return write_table(from, from.run.tables[data.tables.front()]);
-}
-
-// ---- "shapes": the deflection along the beam in time, as CSV or NPZ: t, x, v in rows.
-
-void ShapesOutput::visit(SceneVisitor& v) {
-    visit_file(v, file, {".csv", ".npz"}, "-shapes.csv");
-    visit_rows(v, rate, times);
-    v.integer("stations", stations, 2, 1001,
-              "Number of points along the beam, equally spaced from the root to the tip.");
-    v.check([this](ObjectReader& r) { limit_rows(r, rate, stations); });
-}
-
-void plan(Planner& planner, const ShapesOutput& shapes, const ResolvedOutput& resolved) {
-    std::vector<double> instants = shapes.times.empty() ? rows(0, planner.scene().end_time, shapes.rate) : shapes.times;
-    std::vector<sim::PoseRequest>& poses = planner.run_until(*std::ranges::max_element(instants)).poses;
-    DataFile data{resolved.index, shapes.file};
-    data.content = fmt::format("{} points at {} times", shapes.stations, instants.size());
-    data.index = poses.size();
-    poses.push_back({.times = std::move(instants), .stations = shapes.stations});
-    planner.add(std::move(data));
-}
-
-static std::string write(const ShapesOutput&, const DataFile& data, const DataSource& from) {
-    output::ColumnTable table{{{"t"}, {"x"}, {"v"}}};
-    for (const sim::Pose& pose : from.run.poses[data.index]) {
-        const std::vector<double> v = deflection(pose);
-        for (std::size_t k = 0; k < v.size(); ++k) {
-            table.columns[0].values.push_back(pose.t);
-            table.columns[1].values.push_back(from.scene.problem.beam.length * static_cast<double>(k) /
-                                              static_cast<double>(v.size() - 1));
-            table.columns[2].values.push_back(v[k]);
-        }
-    }
-    output::write_table(*from.file, table);
-    return counted(table.rows(), "row");
 }
 
 // ---- "impacts": all impacts and collisions, as JSON or CSV.

@@ -135,7 +135,6 @@ double run_end(const Scene& scene) {
     double end = scene.end_time;
     for (const Output& output : scene.outputs) {
         if (const auto* table = std::get_if<TrajectoryOutput>(&output)) end = std::max(end, latest(table->times));
-        if (const auto* shapes = std::get_if<ShapesOutput>(&output)) end = std::max(end, latest(shapes->times));
         if (const auto* state = std::get_if<StateOutput>(&output)) end = std::max(end, state->at);
     }
     return end;

@@ -44,7 +44,6 @@ class Planner {
 void plan(Planner& planner, const PictureOutput& output, const ResolvedOutput& resolved);
 void plan(Planner& planner, const FigureOutput& output, const ResolvedOutput& resolved);
 void plan(Planner& planner, const TrajectoryOutput& output, const ResolvedOutput& resolved);
-void plan(Planner& planner, const ShapesOutput& output, const ResolvedOutput& resolved);
 void plan(Planner& planner, const ImpactsOutput& output, const ResolvedOutput& resolved);
 void plan(Planner& planner, const StateOutput& output, const ResolvedOutput& resolved);
 void plan(Planner& planner, const SummaryOutput& output, const ResolvedOutput& resolved);

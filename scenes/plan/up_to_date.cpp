@@ -52,7 +52,6 @@ double end_of_inputs(const Output& output, const Scene& scene) {
     if (std::holds_alternative<ImpactsOutput>(output) || std::holds_alternative<SummaryOutput>(output))
         return run_end(scene);
     if (const auto* table = std::get_if<TrajectoryOutput>(&output)) return unless(!table->times.empty());
-    if (const auto* shapes = std::get_if<ShapesOutput>(&output)) return unless(!shapes->times.empty());
     if (const auto* p = std::get_if<PictureOutput>(&output))
         return unless(p->kind == PictureOutput::Kind::still ? is_time(p->at) : p->span.to.has_value());
     if (const auto* figure = std::get_if<FigureOutput>(&output))

@@ -41,7 +41,7 @@ void visit(SceneVisitor& v, Tolerance& tolerance) {
              "Largest difference of a channel, as a share of its range, up to the reproducible horizon; of the orbits "
              "of a sweep, as a share of the largest value of a column; by default 2e-5.");
     v.number("impacts", tolerance.impacts, sim::dimension::kNone, sim::between(0, 1),
-             "Largest relative difference of an impact's and a summary's numbers; times of impacts may differ by that "
+             "Largest relative difference of an impact's numbers; times of impacts may differ by that "
              "share of a millisecond; by default 1e-4.");
 }
 
@@ -53,9 +53,7 @@ void visit(SceneVisitor& v, Baseline& entry) {
     v.value("set", texts_format(entry.set), "Changes of the scene, as --set takes them.");
     v.value("output", node_format(entry.output_key, "object", R"({"type": "object", "required": ["type"]})"),
             "What is tested, as an output of a scene: still, frames, figure (a picture and the motion behind it); "
-            "trajectory (by default 1 kHz), shapes, impacts, summary, state (their numbers and the motion behind "
-            "them); or sweep, the scene's own "
-            "(the attractors).");
+            "trajectory (by default 1 kHz) and its impacts; or sweep, the scene's own (the attractors).");
     v.boolean("physics", entry.physics, "Whether the motion behind a picture is compared, too.");
     v.object("tolerance", entry.tolerance, "Tolerance of this entry.");
 }

@@ -19,11 +19,6 @@ namespace fs = std::filesystem;
 
 constexpr int kMostPictures = 10'000;  // of one entry: each is a file among the references
 
-// Tables are kept as CSV and not as NPZ, so that people and git can read them.
-constexpr auto name_as_reference = [](auto& output) {
-    output.file = fmt::format("output{}", output.file.ends_with(".json") ? ".json" : ".csv");
-};
-
 constexpr double kRate = 1000;  // [Hz] of a trajectory without "rate" and "times"
 
 class Reader {
@@ -138,7 +133,9 @@ class Reader {
         for (const Message& message : messages)
             if (message.fatal) entry.problem += describe({all_.source}, message);
         if (!fine) return false;
-        if (is_data(entry.output())) std::visit(name_as_reference, entry.scene.outputs.front());
+        if (is_data(entry.output()) && !std::holds_alternative<TrajectoryOutput>(entry.output()))
+            return reject_output(entry,
+                                 ": this type has no references; a \"trajectory\" guards the motion and its impacts");
         // Rows that follow the motion would be others after a change of the solver's tolerance.
         if (auto* table = std::get_if<TrajectoryOutput>(&entry.scene.outputs.front()); table && table->times.empty())
             table->rate = table->rate.value_or(kRate);
@@ -178,11 +175,6 @@ const Picture* Baseline::picture() const {
     if (is_sweep) return nullptr;
     const PictureOutput* still = picture_of(output(), PictureOutput::Kind::still);
     return still ? still : picture_of(output(), PictureOutput::Kind::frames);
-}
-
-std::string Baseline::numbers_file() const {
-    const bool is_motion = is_sweep || !is_data(output()) || std::holds_alternative<TrajectoryOutput>(output());
-    return is_motion ? "" : file_of(output());
 }
 
 Baselines read_baselines(const std::string& path) { return Reader(path).read(); }

@@ -30,8 +30,6 @@ struct Baseline {
     std::string problem;
 
     bool has_pictures() const;
-    // The file of an output with other numbers than those of the motion: "output.json"; empty: it has none.
-    std::string numbers_file() const;
     const Picture* picture() const;  // its still picture or frames; null: it has none
     bool has_motion() const { return physics || !has_pictures(); }
     const Output& output() const { return scene.outputs.front(); }

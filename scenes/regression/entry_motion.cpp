@@ -1,46 +1,17 @@
 #include "scenes/regression/entry_motion.hpp"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <sstream>
 
 #include "output/data/table_reader.hpp"
-#include "output/files/atomic_file.hpp"
 #include "scenes/regression/sweep_record.hpp"
 #include "scenes/scene/exit_code.hpp"
 #include "scenes/sweep/sweep_run.hpp"
 #include "sim/sweep/attractor.hpp"
 
 namespace beamcam::scenes {
-namespace {
-
-namespace fs = std::filesystem;
-
-// A folder that is removed at the end.
-class TemporaryFolder {
-  public:
-    TemporaryFolder() {
-        std::string name = (fs::temp_directory_path() / "beamcam-test-XXXXXX").string();
-        if (!mkdtemp(name.data())) throw output::write_error(name, errno);
-        path_ = name;
-    }
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    fs::path operator/(const std::string& name) const { return path_ / name; }
-
-  private:
-    fs::path path_;
-};
-
-}  // namespace
-
 bool records_all_channels(const Baseline& entry) {
     const auto* table = std::get_if<TrajectoryOutput>(&entry.output());
     return table && table->channels.empty();
@@ -54,7 +25,7 @@ void EntryMotion::judge(std::size_t number, const std::string& label, const sim:
     Verdict verdict = Verdict::missing;
     read(
         [&] {
-            const std::optional<Numbers> expected = read_record(test_.references, names);
+            const std::optional<MotionRecord> expected = read_record(test_.references, names);
             if (!expected) return add_missing(label);
             const MotionVerdict found = compare(*expected, record_of(table, impacts, until), test_.tolerance);
             verdict = found.verdict;
@@ -101,26 +72,6 @@ void EntryMotion::require_settled(const SweepRun& sweep) {
     test_.result.motion_lines.push_back(
         fmt::format("{} of {} points are not compared: they have not settled", unsettled, points));
     if (unsettled == points) throw SceneError("not accepted: " + test_.result.motion_lines.back());
-}
-
-void EntryMotion::judge_numbers(const std::string& name, const std::function<void(const output::FileTarget&)>& write) {
-    const TemporaryFolder folder;
-    write(folder / name);
-    test_.update.keep(name);
-    Verdict verdict = Verdict::missing;
-    read(
-        [&] {
-            if (!test_.references.has(name)) return add_missing("");
-            Numbers expected = read_numbers(test_.references.file(name));
-            if (const auto motion = read_record(test_.references, RecordNames(0)))
-                expected.reproducible_until = motion->reproducible_until;
-            const MotionVerdict found = compare(expected, read_numbers(folder / name), test_.tolerance);
-            verdict = found.verdict;
-            add(found, "");
-        },
-        "");
-    if (test_.references.is_updated() && verdict != Verdict::identical)
-        test_.update.put(name, output::read_file(folder / name));
 }
 
 void EntryMotion::read(const std::function<void()>& work, const std::string& label) {

@@ -1,5 +1,5 @@
-// Judges the motion of one entry, the motions that its picture compares, its sweep, or the other numbers of its output,
-// by comparison with the records among its references.
+// Judges the motion of one entry, the motions that its picture compares, or its sweep, by comparison with the records
+// among its references.
 #pragma once
 
 #include <filesystem>
@@ -30,9 +30,6 @@ class EntryMotion {
 
     // Computes its points. Throws sim::Interrupted, SceneError if the sweep is impossible.
     void judge_sweep(int threads, Progress& progress);
-
-    // The file of an output with other numbers; `write` writes it.
-    void judge_numbers(const std::string& name, const std::function<void(const output::FileTarget&)>& write);
 
   private:
     // Adds a message on unsettled points. Throws SceneError if there are no others.

@@ -8,7 +8,6 @@
 #include "output/files/errors.hpp"
 #include "render/base/error.hpp"
 #include "scenes/motions/identity.hpp"
-#include "scenes/outputs/data_outputs.hpp"
 #include "sim/observe/recorder.hpp"
 
 namespace beamcam::scenes {
@@ -103,10 +102,7 @@ void EntryTest::judge(MotionPool& pool, const RunOptions& options) {
     std::vector<sim::Result> results;
     for (const std::size_t request : requests_) results.push_back(pool.take(request));
     const sim::Result& run = results[*plan_.run];
-    const Output& output = test_.entry.output();
-    if (test_.result.picture || std::holds_alternative<SummaryOutput>(output) ||
-        std::holds_alternative<StateOutput>(output))
-        require_reproducible(run, until_);
+    if (test_.result.picture) require_reproducible(run, until_);
     if (needs_motion()) {
         motion_.judge(0, "", run.tables[recorded_], run.impacts, until_, run.reproducible_until);
         for (const PlannedPictures& p : plan_.pictures)
@@ -117,23 +113,12 @@ void EntryTest::judge(MotionPool& pool, const RunOptions& options) {
                               other.reproducible_until);
             }
     }
-    judge_numbers(run);
     DrawCallbacks callbacks{
         [&](const PlannedPictures&, long frame, const render::Image& image) { pictures_.judge(frame, image); },
         [&](const render::Image& image) { pictures_.judge(0, image); }};
     scenes::draw(plan_, test_.entry.scene, std::move(results), callbacks, options);
     if (test_.result.picture) pictures_.conclude();
     update();
-}
-
-void EntryTest::judge_numbers(const sim::Result& run) {
-    const std::string name = test_.entry.numbers_file();
-    if (name.empty()) return;
-    motion_.judge_numbers(name, [&](const output::FileTarget& file) {
-        const output::Work work;
-        for (const DataFile& data : plan_.data)
-            write_data(data, {test_.entry.scene, run_request(), run, work, &file, nullptr});
-    });
 }
 
 void EntryTest::judge_sweep(int threads, Progress& progress) {

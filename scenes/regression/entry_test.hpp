@@ -41,7 +41,6 @@ class EntryTest {
     sim::Request& run_request() { return plan_.motions[*plan_.run].request; }  // of the scene's motion
     void request_record();
     void request_compared_records();
-    void judge_numbers(const sim::Result& run);
     // An update throws render::PictureError if the motion is not reproducible up to `until`.
     void require_reproducible(const sim::Result& motion, double until) const;
     double last_shown() const;  // the last instant of the pictures [s]

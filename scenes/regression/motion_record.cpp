@@ -37,8 +37,8 @@ sim::TableRequest motion_behind_picture(const sim::Problem& problem, double unti
     return table;
 }
 
-Numbers record_of(const sim::Table& table, const std::vector<sim::Impact>& impacts, double until) {
-    Numbers record{.json = object_node({{"impacts", impacts_node(impacts, until)}})};
+MotionRecord record_of(const sim::Table& table, const std::vector<sim::Impact>& impacts, double until) {
+    MotionRecord record{.impacts = impacts_node(impacts, until)};
     for (std::size_t c = 0; c < table.channels.size(); ++c)
         record.table.columns.push_back({name(table.channels[c]), {}, {}, table.values[c]});
     return record;
@@ -57,23 +57,21 @@ void put_record(ReferenceUpdate& update, const RecordNames& names, const sim::Ta
                                                    {"impacts", impacts_node(impacts, until)}})));
 }
 
-std::optional<Numbers> read_record(const References& references, const RecordNames& names) {
+std::optional<MotionRecord> read_record(const References& references, const RecordNames& names) {
     if (!references.has(names.table) || !references.has(names.impacts)) return std::nullopt;
-    Numbers record = read_numbers(references.file(names.table));
+    MotionRecord record{.table = output::read_table(references.file(names.table))};
     for (const output::TableColumn& column : record.table.columns) record.table.find(column.name);  // numbers only
-    record.json = read_numbers(references.file(names.impacts)).json;
-    if (const Member* horizon = record.json.find("reproducible_until"))
+    const std::filesystem::path file = references.file(names.impacts);
+    const Parsed parsed = parse(output::read_file(file));
+    const Member* impacts = parsed.is_json ? parsed.root.find("impacts") : nullptr;
+    if (!impacts || impacts->value.kind != Node::Kind::array)
+        throw output::IoError(fmt::format(
+            "cannot read {}: it has no list of impacts, or it is damaged; restore it, or replace it with --update",
+            file.string()));
+    record.impacts = impacts->value;
+    if (const Member* horizon = parsed.root.find("reproducible_until"))
         record.reproducible_until = horizon->value.number;
     return record;
-}
-
-Numbers read_numbers(const std::filesystem::path& file) {
-    if (file.extension() == ".csv") return {.table = output::read_table(file)};
-    Parsed parsed = parse(output::read_file(file));
-    if (parsed.is_json && parsed.root.kind == Node::Kind::object) return {.json = std::move(parsed.root)};
-    throw output::IoError(fmt::format(
-        "cannot read {}: it is not an object of JSON, or it is damaged; restore it, or replace it with --update",
-        file.string()));
 }
 
 }  // namespace beamcam::scenes

@@ -2,12 +2,11 @@
 // and the time up to which the motion is reproducible.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "scenes/regression/numbers.hpp"
+#include "scenes/regression/motion_comparison.hpp"
 #include "scenes/regression/references.hpp"
 #include "sim/run/simulate.hpp"
 
@@ -17,7 +16,7 @@ namespace beamcam::scenes {
 sim::TableRequest motion_behind_picture(const sim::Problem& problem, double until);
 
 // The part of the run up to `until`. An impact that lasts longer is recorded with its values at the touch.
-Numbers record_of(const sim::Table& table, const std::vector<sim::Impact>& impacts, double until);
+MotionRecord record_of(const sim::Table& table, const std::vector<sim::Impact>& impacts, double until);
 
 // Names of the two files of a motion: 0 is the motion of the scene; the motions that its picture compares follow.
 struct RecordNames {
@@ -27,8 +26,6 @@ struct RecordNames {
 void put_record(ReferenceUpdate& update, const RecordNames& names, const sim::Table& table,
                 const std::vector<sim::Impact>& impacts, double until, std::optional<double> reproducible_until);
 // Nothing if the folder has no record. Throws IoError if the record is damaged.
-std::optional<Numbers> read_record(const References& references, const RecordNames& names);
-// The numbers in a file that ends in .csv or .json, as outputs write it. Throws IoError if it is damaged.
-Numbers read_numbers(const std::filesystem::path& file);
+std::optional<MotionRecord> read_record(const References& references, const RecordNames& names);
 
 }  // namespace beamcam::scenes

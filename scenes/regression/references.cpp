@@ -31,7 +31,7 @@ bool is_of_series(std::string_view name, std::string_view begin, std::string_vie
 
 bool is_reference_name(std::string_view name) {
     return is_picture(name) || is_of_series(name, "motion", ".csv") || is_of_series(name, "impacts", ".json") ||
-           name == "output.json" || name == "output.csv" || name == "sweep.csv" || name == kDigestsFile;
+           name == "sweep.csv" || name == kDigestsFile;
 }
 
 // The references in a folder, without links and folders of such names.

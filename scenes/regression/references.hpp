@@ -3,7 +3,6 @@
 //     0000.png, 0001.png …   the pictures
 //     motion.csv             the motion of the scene, or the one behind the picture; motion-1.csv … of compared motions
 //     impacts.json           its impacts, and the time up to which it is reproducible; impacts-1.json …
-//     output.json, .csv      the numbers of an output of another type, such as a summary
 //     sweep.csv              the samples of a sweep
 //     digests.json           {"RENDERER": ["SHA-256 of the pixels", …]}: the pixels that renderers drew when they were
 //                            accepted. They only tell "identical" from "equivalent"; the pictures decide.

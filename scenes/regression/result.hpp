@@ -29,7 +29,7 @@ using ChangedFrames = std::vector<std::pair<long, const FrameResult*>>;  // with
 
 struct EntryResult {
     std::string name;
-    std::optional<Verdict> picture, motion;                // absent: not compared; motion: and other numbers
+    std::optional<Verdict> picture, motion;                // absent: not compared
     std::map<long, FrameResult> frames;                    // by number, from 0
     std::vector<std::string> picture_lines, motion_lines;  // messages
     std::vector<std::filesystem::path> written, removed;   // by an update

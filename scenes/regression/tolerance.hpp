@@ -13,7 +13,7 @@ struct Tolerance {
     std::optional<double> share;    // of the pixels that may differ by more, 0…1; default 0
     std::optional<double> ssim;     // least structural similarity of equivalent pictures, 0…1; default: none
     std::optional<double> motion;   // share of a channel's range, up to the reproducible horizon; default 2e-5
-    std::optional<double> impacts;  // relative, of an impact's and a summary's numbers; default 1e-4
+    std::optional<double> impacts;  // relative, of an impact's numbers; default 1e-4
 
     // The values of `over`; where it has none, the values of this.
     Tolerance overridden_by(const Tolerance& over) const {

@@ -60,17 +60,6 @@ struct TrajectoryOutput {
 
     void visit(SceneVisitor& v);
 };
-struct ShapesOutput {
-    static constexpr const char *kType = "shapes",
-                                *kMeaning = "The deflection along the beam in time: one row for each time and point.";
-    static constexpr OutputInputs kInputs{};
-    std::string file;                // .csv or .npz
-    double rate = 1000;              // [Hz]: times k/rate and the end
-    std::vector<double> times = {};  // [s]; replaces `rate` unless empty
-    int stations = 33;               // points along the beam, both ends included
-
-    void visit(SceneVisitor& v);
-};
 struct ImpactsOutput {
     static constexpr const char *kType = "impacts", *kMeaning = "All impacts and collisions.";
     static constexpr OutputInputs kInputs{};
@@ -188,7 +177,7 @@ struct FigureOutput {
 
     void visit(SceneVisitor& v);
 };
-using Output = std::variant<PictureOutput, FigureOutput, TrajectoryOutput, ShapesOutput, ImpactsOutput, StateOutput,
-                            SweepOutput, SummaryOutput>;
+using Output =
+    std::variant<PictureOutput, FigureOutput, TrajectoryOutput, ImpactsOutput, StateOutput, SweepOutput, SummaryOutput>;
 
 }  // namespace beamcam::scenes

@@ -41,14 +41,12 @@ BASELINES = """{"references": "refs", "entries": {
  "still": {"scene": "own.json", "output": {"type": "still", "at": 0.1, "size": [64, 48], "view": {"style": "flat"}}},
  "frames": {"scene": "own.json", "output": {"type": "frames", "fps": 10, "size": [64, 48], "view": {"style": "flat"}}},
  "table": {"scene": "own.json", "output": {"type": "trajectory", "rate": 50, "channels": ["theta"]}},
- "summary": {"scene": "own.json", "output": {"type": "summary"}},
- "impacts": {"scene": "own.json", "output": {"type": "impacts"}},
  "sweep": {"scene": "swept.json", "output": {"type": "sweep"}}}}"""
-ENTRIES = ["still", "frames", "table", "summary", "impacts", "sweep"]
+ENTRIES = ["still", "frames", "table", "sweep"]
 SWEPT = """{"beam": {"model": "rigid"}, "cam": {"eccentricity": "2 mm"}, "initial": {"angle": 0.5},
  "contact": {"model": "restitution", "law": "newton", "restitution": 0.5},
  "sweep": {"over": [{"key": "cam.speed", "values": [38, 40]}], "transient": {"cam_turns": 5}, "keep": {"cam_turns": 2}}}"""
-REFERENCE = re.compile(r"\d{4,}\.png|(motion|impacts)(-\d+)?\.(csv|json)|output\.(csv|json)|sweep\.csv|digests\.json")
+REFERENCE = re.compile(r"\d{4,}\.png|(motion|impacts)(-\d+)?\.(csv|json)|sweep\.csv|digests\.json")
 
 # Places outside of the folder that a hostile record wants.
 WANTED = ["../victim/.profile", "../../victim/.profile", "../victim/new", "../victim", "{victim}/.profile", "{victim}/new"]

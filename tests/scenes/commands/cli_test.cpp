@@ -69,8 +69,8 @@ TEST(CommandLine, EveryKeyIsExplained) {
     for (const auto& key : nlohmann::json::parse(shell(folder, "$BEAMCAM keys --json").out))
         EXPECT_GT(key["meaning"].get<std::string>().size(), 3u) << key;
     EXPECT_EQ(shell(folder, "$BEAMCAM keys nonsense").code, 2);
-    const std::string shapes = shell(folder, "$BEAMCAM keys shapes").out;
-    EXPECT_THAT(shapes, AllOf(HasSubstr("outputs[].stations  (type=shapes)"), HasSubstr("(.csv .npz); by default")));
+    const std::string state = shell(folder, "$BEAMCAM keys state").out;
+    EXPECT_THAT(state, AllOf(HasSubstr("outputs[].at  (type=state)"), HasSubstr("by default NAME-state.json")));
     EXPECT_THAT(shell(folder, "$BEAMCAM keys trajectory").out, Not(HasSubstr("stations")));
     EXPECT_THAT(shell(folder, "$BEAMCAM keys sped").err, HasSubstr("did you mean \"speed\" or \"seed\"?"));
 }

@@ -1,4 +1,4 @@
-// Kymograph, spectrogram, strobe, maps of impacts; and the tables of shapes and of states at impacts.
+// Kymograph, spectrogram, strobe, maps of impacts; and the table of states at impacts.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -391,24 +391,6 @@ TEST(Overviews, KeysOfOtherFiguresAreRejectedWithTheNamesOfThese) {
         }
 }
 
-TEST(Exports, ShapesEndWithTheTipsDeflection) {
-    for (const char* ending : {"csv", "npz"}) {
-        const Folder folder;
-        folder.write("s.json", R"({"time": {"end": 0.3}})");
-        const std::string file = std::string("v.") + ending;
-        const Finished made = shell(folder, "$BEAMCAM simulate s.json --rate 10 --shapes " + file + " -q && " +
-                                                "$BEAMCAM simulate s.json --rate 10 --channels tip_deflection > t.csv");
-        ASSERT_EQ(made.code, 0) << made.err;
-        const output::ColumnTable shapes = output::read_table(folder / file),
-                                  tip = output::read_table(folder / "t.csv");
-        ASSERT_EQ(shapes.rows(), 4 * 33u);
-        for (std::size_t k = 0; k < 4; ++k) {
-            EXPECT_EQ((*shapes.find("x"))[33 * k + 32], 1);
-            EXPECT_NEAR((*shapes.find("v"))[33 * k + 32], (*tip.find("tip_deflection"))[k], 1e-14);
-        }
-    }
-}
-
 // The shape of `modes --json` is the deflection by its own coordinate q alone, in sign and form.
 TEST(Exports, CoordinatesHaveTheSignOfTheModes) {
     for (const char* basis : {"cantilever", "hub-beam"}) {
@@ -463,19 +445,6 @@ TEST(Exports, ImpactsCarryTheirStates) {
         EXPECT_NEAR(at(key.c_str()), values[0], 1e-9 * std::abs(values[0])) << key;
         EXPECT_NEAR(at((key + "_after").c_str()), values[1], 1e-9 * std::abs(values[1])) << key;
     }
-}
-
-TEST(Exports, ShapesAreThoseOfTheRequestedInstants) {
-    const Folder folder;
-    folder.write("s.json", R"({"time": {"end": 0.3}})");
-    const Finished made = shell(folder, "$BEAMCAM simulate s.json --shapes v.csv --times 0.2,0.1");
-    ASSERT_EQ(made.code, 0) << made.err;
-    EXPECT_EQ(made.out, "");
-    const output::ColumnTable shapes = output::read_table(folder / "v.csv");
-    ASSERT_EQ(shapes.rows(), 2 * 33u);
-    EXPECT_EQ(shapes.find("t")->front(), 0.2);
-    EXPECT_EQ(shapes.find("t")->back(), 0.1);
-    EXPECT_EQ(shell(folder, "$BEAMCAM simulate s.json --shapes v.csv --times 0.2 --rate 10").code, 2);
 }
 
 TEST(Exports, LettersAreSerifOnRequest) {

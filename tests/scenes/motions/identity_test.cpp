@@ -255,7 +255,6 @@ bool shows(const Scene& scene, std::size_t output, const Schema::Leaf& leaf) {
     if (const auto* still = picture_of(any, PictureOutput::Kind::still)) return still->at.kind != Instant::Kind::time;
     if (const auto* pictures = std::get_if<PictureOutput>(&any)) return !pictures->span.to;
     if (const auto* table = std::get_if<TrajectoryOutput>(&any)) return table->times.empty();
-    if (const auto* shapes = std::get_if<ShapesOutput>(&any)) return shapes->times.empty();
     if (const auto* figure = std::get_if<FigureOutput>(&any)) return !figure->series.to;
     return true;
 }
