@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "output/files/atomic_file.hpp"
-#include "output/film/encoder_settings.hpp"
 #include "output/film/palette.hpp"
 #include "output/film/pixel_layout.hpp"
 #include "sim/base/clock.hpp"
@@ -39,7 +38,6 @@ struct VideoWriter::Impl {
 
     AtomicFile file;
     VideoOptions options;
-    PixelLayout layout = PixelLayout::yuv420;
     std::optional<PaletteTable> table;  // of a GIF
     std::unique_ptr<Encoder> encoder;   // used by the worker until `stop`, except to make frames
     std::unique_ptr<VideoInput> own;    // of `write`
@@ -82,9 +80,14 @@ struct VideoWriter::Impl {
     void open() {
         if (options.variable_rate) longest_hold = std::lround(kLongestHold * options.fps.value());
         if (!options.palette.empty()) table.emplace(options.palette);
-        const EncoderSettings settings = encoder_settings(options, file);
-        layout = settings.layout;
-        encoder = open_encoder(settings, options);
+        try {
+            encoder = video_library().open_encoder(options, file.temporary_path(), file.target());
+        } catch (const CodecFailure& error) {  // for reasons unknown to `problems`
+            throw UnsupportedOption(std::string("the encoder of ") + title(options.codec) + " rejects films of " +
+                                    std::to_string(options.width) + "x" + std::to_string(options.height) +
+                                    " pixels here (" + error.what() +
+                                    "); choose a smaller size, or write frames (NAME-####.png)");
+        }
     }
 
     // Slots for one more input.
@@ -189,7 +192,7 @@ struct VideoWriter::Impl {
                                    " in a film of " + std::to_string(options.width) + "x" +
                                    std::to_string(options.height));
         const Clock::time_point start = Clock::now();
-        output::convert(image, layout, table ? &*table : nullptr, *slot.frame, slot.stale);
+        output::convert(image, encoder->layout(), table ? &*table : nullptr, *slot.frame, slot.stale);
         slot.stale.clear();
         const double spent = seconds_since(start);
         const std::lock_guard lock(mutex);

@@ -20,13 +20,6 @@
 
 namespace beamcam::output {
 
-struct VideoOptions : FilmSettings, Encoding {
-    bool transparent = false;            // with the alpha of the pictures
-    std::vector<std::uint32_t> palette;  // of a GIF: 1 to 256 colours from PaletteMaker
-};
-// All problems of these options, each with a remedy. `ending` with the dot.
-std::vector<std::string> problems(const VideoOptions& options, std::string_view ending = ".mp4");
-
 // The work for a film so far, for progress lines and -v.
 struct VideoStatistics {
     long frames = 0;             // encoded

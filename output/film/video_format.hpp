@@ -8,9 +8,12 @@
 //   .webp  webp              animated, with transparency; small
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace beamcam::output {
 
@@ -46,6 +49,15 @@ struct Encoding {
     bool variable_rate = false;
 };
 
+// The settings of a film.
+struct VideoOptions : Encoding {
+    int width = 1920, height = 1080;  // [px], 16…16384; even where the codec needs it
+    FrameRate fps;
+    std::map<std::string, std::string> metadata;
+    bool transparent = false;            // with the alpha of the pictures
+    std::vector<std::uint32_t> palette;  // of a GIF: 1 to 256 colours from PaletteMaker, 0xffRRGGBB
+};
+
 struct QualityScale {
     int usual, worst;  // crf: 0 is best
 };
@@ -56,5 +68,7 @@ std::string format_problem(std::string_view ending, Codec codec, bool transparen
 std::string quality_problem(Codec codec, std::optional<int> crf);
 std::string size_problem(Codec codec, int width, int height);
 std::string rate_problem(Codec codec, double fps);
+// All of these problems.
+std::vector<std::string> problems(const VideoOptions& options, std::string_view ending = ".mp4");
 
 }  // namespace beamcam::output

@@ -4,17 +4,13 @@
 // All functions throw the errors of errors.hpp, CodecFailure, or std::bad_alloc.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <optional>
 #include <stdexcept>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "output/files/errors.hpp"
 #include "output/film/video_format.hpp"
@@ -26,28 +22,8 @@ struct CodecFailure : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-using OptionList = std::vector<std::pair<std::string, std::string>>;
-
-// The settings of a film and of its encoder.
-struct FilmSettings {
-    int width = 1920, height = 1080;  // [px], 16…16384; even where the codec needs it
-    FrameRate fps;
-    std::map<std::string, std::string> metadata;
-};
-
 // How the pixels of a frame lie in its planes.
 enum class PixelLayout { yuv420, yuva420, yuva444p10, bgra, indices };
-
-struct EncoderSettings : FilmSettings {
-    std::filesystem::path file;                             // exists; it is overwritten
-    std::filesystem::path named;                            // its name in messages
-    std::string container;                                  // FFmpeg's name of the muxer
-    std::string encoder, pixel_format;                      // FFmpeg's names
-    PixelLayout layout = PixelLayout::yuv420;               // of that pixel format
-    OptionList encoder_options, container_options;          //
-    std::string missing;                                    // message if the encoder does not exist
-    std::optional<std::array<std::uint32_t, 256>> palette;  // 0xAARRGGBB, for "pal8"
-};
 
 // The planes of a frame that the caller fills; unused planes are null.
 struct FramePlanes {
@@ -58,6 +34,7 @@ struct FramePlanes {
 class Encoder {
   public:
     virtual ~Encoder() = default;  // also without `finish`
+    virtual PixelLayout layout() const = 0;
     // A new frame, which belongs to the encoder. From any thread, one at a time.
     virtual FramePlanes& make_frame() = 0;
     // Adds the frame to the film; afterwards the caller may change it again.
@@ -79,7 +56,9 @@ struct VideoInfo {
 class VideoLibrary {
   public:
     virtual ~VideoLibrary() = default;
-    virtual std::unique_ptr<Encoder> open_encoder(const EncoderSettings& settings) const = 0;
+    // `file` exists and is overwritten; messages call it `named`, whose ending chooses the container.
+    virtual std::unique_ptr<Encoder> open_encoder(const VideoOptions& options, const std::filesystem::path& file,
+                                                  const std::filesystem::path& named) const = 0;
     // From the container of an MP4, MOV, Matroska or WebM file, without decoding. Throws IoError.
     virtual VideoInfo info(const std::filesystem::path& file) const = 0;
     virtual std::string versions() const = 0;                     // "libavcodec 59.37.100, …"

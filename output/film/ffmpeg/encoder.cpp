@@ -1,4 +1,6 @@
 // Encodes films: encoders of libavcodec, containers of libavformat.
+#include <algorithm>
+#include <array>
 #include <cstring>
 #include <memory>
 #include <string>
@@ -19,6 +21,68 @@ namespace {
 
 constexpr int kThreads = 4;  // with more, the bits depend on their number
 
+// FFmpeg's settings of an encoder and its container.
+struct EncoderSettings {
+    const char* container = "";
+    const char* pixel_format = "";
+    PixelLayout layout = PixelLayout::yuv420;  // of that pixel format
+    OptionList encoder_options = {}, container_options = {};
+};
+
+// FFmpeg's name of the muxer.
+const char* container_of(std::string_view ending) {
+    if (ending == ".webm") return "webm";
+    if (ending == ".mov") return "mov";
+    if (ending == ".mkv") return "matroska";
+    if (ending == ".gif") return "gif";
+    if (ending == ".webp") return "webp";
+    return "mp4";
+}
+
+EncoderSettings settings_of(const VideoOptions& o, const std::string& ending) {
+    EncoderSettings s;
+    s.container = container_of(ending);
+    const auto pixels = [&s](const char* format, PixelLayout layout) { s.pixel_format = format, s.layout = layout; };
+    const std::string crf = std::to_string(o.crf.value_or(quality_scale(o.codec).value_or(QualityScale{}).usual));
+    switch (o.codec) {
+        case Codec::h264:  // without cpu-independent, the rounding of x264 depends on the processor
+            pixels("yuv420p", PixelLayout::yuv420);
+            s.encoder_options = {{"preset", o.preset}, {"crf", crf}, {"x264-params", "cpu-independent=1"}};
+            // The duration of an MP4 is that of its packets in decoding order, which must be the display order.
+            if (o.variable_rate) s.encoder_options.emplace_back("bf", "0");
+            break;
+        case Codec::vp9:  // tile columns run on several threads; the picture does not depend on their number
+            o.transparent ? pixels("yuva420p", PixelLayout::yuva420) : pixels("yuv420p", PixelLayout::yuv420);
+            s.encoder_options = {
+                {"crf", crf}, {"b", "0"}, {"deadline", "good"}, {"cpu-used", "4"}, {"tile-columns", "2"}};
+            // Films with alpha cannot have alternative reference frames.
+            if (o.transparent) s.encoder_options.emplace_back("auto-alt-ref", "0");
+            break;
+        case Codec::prores:
+            pixels("yuva444p10le", PixelLayout::yuva444p10);
+            s.encoder_options = {{"profile", "4444"}, {"vendor", "apl0"}, {"alpha_bits", o.transparent ? "16" : "0"}};
+            break;
+        case Codec::ffv1:
+            pixels(o.transparent ? "bgra" : "bgr0", PixelLayout::bgra);
+            s.encoder_options = {{"level", "3"}, {"slicecrc", "1"}, {"slices", "4"}};
+            break;
+        case Codec::gif:
+            pixels("pal8", PixelLayout::indices);
+            s.container_options = {{"loop", "0"}};
+            break;
+        case Codec::webp:
+            pixels("bgra", PixelLayout::bgra);
+            s.encoder_options = {{"quality", "80"}, {"compression_level", "2"}};
+            s.container_options = {{"loop", "0"}};
+            break;
+    }
+    // faststart: the index comes first, so that players can start before they have the whole file.
+    // use_metadata_tags: keeps our own keys.
+    if (ending == ".mp4" || ending == ".mov")
+        s.container_options.emplace_back("movflags", "+faststart+use_metadata_tags");
+    return s;
+}
+
 struct OwnedFrame : FramePlanes {
     Owned<AVFrame> av = owned(av_frame_alloc());
 
@@ -30,10 +94,11 @@ struct OwnedFrame : FramePlanes {
     }
 };
 
-const AVCodec& encoder_of(const EncoderSettings& s) {
-    const AVCodec* codec = avcodec_find_encoder_by_name(s.encoder.c_str());
-    if (codec == nullptr) throw MissingCodec(s.missing);
-    return *codec;
+const AVCodec& encoder_of(Codec codec) {
+    if (const AVCodec* found = avcodec_find_encoder_by_name(encoder_name(codec))) return *found;
+    throw MissingCodec(std::string("the FFmpeg libraries on this machine have no ") + title(codec) + " encoder (" +
+                       encoder_name(codec) +
+                       "); install the distribution's full build of libavcodec, or choose another codec");
 }
 
 // libwebp gives the last picture of an animation the mean duration of the others. Sets its duration such that all last
@@ -63,12 +128,17 @@ bool is_yuv(AVPixelFormat format) {
 
 class FfmpegEncoder : public Encoder {
   public:
-    explicit FfmpegEncoder(const EncoderSettings& s)
-        : encoder_(encoder_of(s)), file_(s.file, s.named, s.container), settings_(s) {
+    FfmpegEncoder(const VideoOptions& options, const std::filesystem::path& file, const std::filesystem::path& named)
+        : options_(options),
+          settings_(settings_of(options, named.extension().string())),
+          encoder_(encoder_of(options.codec)),
+          file_(file, named, settings_.container) {
         describe_pictures();
         open_codec();
         open_file();
     }
+
+    PixelLayout layout() const override { return settings_.layout; }
 
     FramePlanes& make_frame() override {
         auto frame = std::make_unique<OwnedFrame>();
@@ -81,7 +151,12 @@ class FfmpegEncoder : public Encoder {
         frame->av->colorspace = codec_->colorspace;
         frame->av->color_range = codec_->color_range;
         if (const int code = av_frame_get_buffer(frame->av.get(), 0); code < 0) fail("making a frame", code);
-        if (settings_.palette) std::memcpy(frame->av->data[1], settings_.palette->data(), 1024);
+        if (settings_.layout == PixelLayout::indices) {
+            std::array<std::uint32_t, 256> palette;
+            palette.fill(0xff000000U);
+            std::ranges::copy(options_.palette, palette.begin());
+            std::memcpy(frame->av->data[1], palette.data(), sizeof palette);
+        }
         frame->show_planes();
         frames_.push_back(std::move(frame));
         return *frames_.back();
@@ -110,12 +185,12 @@ class FfmpegEncoder : public Encoder {
 
   private:
     void describe_pictures() {
-        codec_->width = settings_.width;
-        codec_->height = settings_.height;
-        codec_->time_base = {settings_.fps.denominator, settings_.fps.numerator};
-        codec_->framerate = {settings_.fps.numerator, settings_.fps.denominator};
+        codec_->width = options_.width;
+        codec_->height = options_.height;
+        codec_->time_base = {options_.fps.denominator, options_.fps.numerator};
+        codec_->framerate = {options_.fps.numerator, options_.fps.denominator};
         codec_->sample_aspect_ratio = {1, 1};
-        codec_->pix_fmt = av_get_pix_fmt(settings_.pixel_format.c_str());
+        codec_->pix_fmt = av_get_pix_fmt(settings_.pixel_format);
         if (!is_yuv(codec_->pix_fmt)) return;
         codec_->color_primaries = AVCOL_PRI_BT709;
         codec_->color_trc = AVCOL_TRC_BT709;
@@ -142,7 +217,7 @@ class FfmpegEncoder : public Encoder {
         stream.sample_aspect_ratio = {1, 1};
         const int code = avcodec_parameters_from_context(stream.codecpar, codec_.get());
         if (code < 0) fail("setting up the film", code);
-        for (const auto& [key, value] : settings_.metadata) file_.set_tag(key, value);
+        for (const auto& [key, value] : options_.metadata) file_.set_tag(key, value);
         file_.write_header(settings_.container_options);
     }
 
@@ -167,9 +242,10 @@ class FfmpegEncoder : public Encoder {
         }
     }
 
+    const VideoOptions options_;
+    const EncoderSettings settings_;
     const AVCodec& encoder_;
     OutputFile file_;
-    EncoderSettings settings_;
     Owned<AVPacket> packet_ = owned(av_packet_alloc());
     Owned<AVCodecContext> codec_ = owned(avcodec_alloc_context3(&encoder_));
     std::vector<std::unique_ptr<OwnedFrame>> frames_;
@@ -178,8 +254,9 @@ class FfmpegEncoder : public Encoder {
 
 }  // namespace
 
-std::unique_ptr<Encoder> open_encoder(const EncoderSettings& settings) {
-    return std::make_unique<FfmpegEncoder>(settings);
+std::unique_ptr<Encoder> open_encoder(const VideoOptions& options, const std::filesystem::path& file,
+                                      const std::filesystem::path& named) {
+    return std::make_unique<FfmpegEncoder>(options, file, named);
 }
 
 }  // namespace beamcam::output::ffmpeg

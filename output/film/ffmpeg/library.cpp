@@ -65,8 +65,9 @@ VideoInfo info_of(const std::filesystem::path& file) {
 class Library : public VideoLibrary {
   public:
     Library() { av_log_set_level(AV_LOG_QUIET); }  // errors are exceptions
-    std::unique_ptr<Encoder> open_encoder(const EncoderSettings& settings) const override {
-        return ffmpeg::open_encoder(settings);
+    std::unique_ptr<Encoder> open_encoder(const VideoOptions& options, const std::filesystem::path& file,
+                                          const std::filesystem::path& named) const override {
+        return ffmpeg::open_encoder(options, file, named);
     }
     VideoInfo info(const std::filesystem::path& file) const override { return info_of(file); }
     std::string versions() const override {

@@ -5,6 +5,8 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "output/film/video_library.hpp"
 
@@ -37,7 +39,10 @@ std::string reason(int code);
 // Throws std::bad_alloc if memory is short, else CodecFailure "doing: reason".
 [[noreturn]] void fail(const char* doing, int code);
 
-std::unique_ptr<Encoder> open_encoder(const EncoderSettings& settings);
+std::unique_ptr<Encoder> open_encoder(const VideoOptions& options, const std::filesystem::path& file,
+                                      const std::filesystem::path& named);
+
+using OptionList = std::vector<std::pair<std::string, std::string>>;
 
 // A film that is being written: a container with one stream of pictures.
 class OutputFile {
