@@ -22,12 +22,7 @@ constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kSampledRows = 200;  // enough to recognize the separator
 constexpr std::size_t kMostColumns = 10000;
 
-struct Separator {
-    char character;
-    const char* name;  // of more than one
-};
-// The first one counts where several fit.
-constexpr Separator kSeparators[] = {{'\t', "tabs"}, {';', "semicolons"}, {',', "commas"}, {' ', "spaces"}};
+constexpr char kSeparators[] = {'\t', ';', ',', ' '};  // the first one counts where several fit
 
 constexpr std::string_view kMissing[] = {"", "na", "n/a", "nan", "null", "none", "-", "--", "?", "#n/a"};
 
@@ -49,10 +44,9 @@ const char* other_encoding(std::string_view bytes) {
 }
 
 // UTF-8 without a byte order mark, with lines that end in "\n".
-std::string plain_text(std::string_view bytes, const std::string& file, std::vector<std::string>& notes) {
+std::string plain_text(std::string_view bytes, const std::string& file) {
     const char* encoding = other_encoding(bytes);
     std::string text = encoding ? converted(bytes, encoding, file) : std::string(bytes);
-    if (encoding) notes.emplace_back(std::string("encoded as ") + encoding);
     if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
     if (text.find('\0') != text.npos)
         throw IoError("cannot read " + file + ": it contains zero bytes; save it as CSV in UTF-8");
@@ -223,8 +217,7 @@ std::string unit_in(const std::string& name) {
 
 class CsvParser {
   public:
-    CsvParser(std::string_view bytes, const std::string& file)
-        : file_(file), text_(plain_text(bytes, file, table_.notes)) {}
+    CsvParser(std::string_view bytes, const std::string& file) : file_(file), text_(plain_text(bytes, file)) {}
 
     ColumnTable parse() {
         if (text_.find_first_not_of(" \t\r\n") == text_.npos)
@@ -257,16 +250,13 @@ class CsvParser {
 
     void choose_separator() {
         Width best;
-        for (const Separator& each : kSeparators) {
-            const Width width = usual_width(text_, each.character);
-            if (width.cells < 2 || width.rows <= best.rows || (each.character == ' ' && best.rows > 0)) continue;
+        for (const char each : kSeparators) {
+            const Width width = usual_width(text_, each);
+            if (width.cells < 2 || width.rows <= best.rows || (each == ' ' && best.rows > 0)) continue;
             best = width;
-            separator_ = each.character;
+            separator_ = each;
         }
         width_ = best.cells;
-        if (separator_ != ',')
-            table_.notes.push_back(std::string("separated by ") +
-                                   std::ranges::find(kSeparators, separator_, &Separator::character)->name);
     }
 
     // Blank lines and comments; in a table of one column a blank line is a missing value.
@@ -309,7 +299,6 @@ class CsvParser {
         return row;
     }
     void set_names(const Row& row) {
-        if (row.line > 1) table_.notes.push_back("names in line " + std::to_string(row.line));
         width_ = row.cells.size();
         if (width_ > kMostColumns) refuse(row, "the table has more than " + std::to_string(kMostColumns) + " columns");
         std::map<std::string, std::size_t> known;
@@ -344,7 +333,6 @@ class CsvParser {
         if (!found) return;
         for (std::size_t c = 0; c < width_; ++c)
             if (is_text(units.cells[c])) table_.columns[c].unit = without_brackets(unquoted(units.cells[c]));
-        table_.notes.push_back("units in line " + std::to_string(units.line));
         rows = after;
     }
 
@@ -395,15 +383,10 @@ class CsvParser {
     // Where one column has points, commas in another separate thousands or are a mistake.
     void check_decimal_signs() {
         const bool points = std::ranges::find(signs_, '.', &Signs::sign) != signs_.end();
-        bool commas = false;
-        for (std::size_t c = 0; c < width_; ++c) {
-            if (signs_[c].sign != ',') continue;
-            commas = true;
-            if (points && table_.columns[c].problem.empty())
+        for (std::size_t c = 0; c < width_; ++c)
+            if (points && signs_[c].sign == ',' && table_.columns[c].problem.empty())
                 table_.columns[c].problem =
                     signs_[c].first + " has a decimal comma, but other columns have points; use one of them";
-        }
-        if (commas) table_.notes.emplace_back("decimal commas");
     }
 
     const std::string& file_;

@@ -24,7 +24,6 @@ struct TableColumn {
 struct ColumnTable {
     std::vector<TableColumn> columns;
     std::vector<std::size_t> lines = {};  // of the rows in a CSV file that was read
-    std::vector<std::string> notes = {};  // how a file was read: "separated by tabs"
 
     std::size_t rows() const { return columns.empty() ? 0 : columns.front().values.size(); }
     std::vector<std::string> names() const;

@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "output/files/standard_output.hpp"
-#include "output/files/text_safety.hpp"
 #include "render/plot/style.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/format/absent.hpp"
@@ -87,9 +86,6 @@ Scene load_scene(const std::string& path, const Common& common) {
     Reading reading = read_scene(load_source(path), common.overrides);
     if (!reading.scene) throw SceneError(reading.report());
     if (!common.quiet && !reading.messages.empty()) output::print_message("{}", reading.report());
-    if (common.verbose && !common.quiet)
-        for (const Measurement& data : reading.scene->data)
-            for (const std::string& note : data.notes) output::print_message("{}\n", output::one_line(note));
     return std::move(*reading.scene);
 }
 

@@ -1,5 +1,6 @@
 // `beamcam keys`: the reference of scene keys.
 #include <fmt/format.h>
+#include <fnmatch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,18 +18,11 @@ struct KeysArguments {
     bool json = false, markdown = false;
 };
 
-// Whether the text contains the words of the pattern in this order; words are separated by blanks or '*'.
-bool matches(const std::string& text, const std::string& pattern) {
-    std::size_t at = 0;
-    for (std::size_t begin = 0; begin < pattern.size();) {
-        const std::size_t end = std::min(pattern.find_first_of(" *", begin), pattern.size());
-        const std::string word = pattern.substr(begin, end - begin);
-        at = text.find(word, at);
-        if (at == std::string::npos) return false;
-        at += word.size();
-        begin = end + 1;
-    }
-    return true;
+// Whether a part of the text matches the pattern, in which blanks and '*' stand for any text.
+bool matches(const std::string& text, std::string pattern) {
+    replace_all(pattern, " ", "*");
+    replace_all(pattern, "[", "\\[");
+    return fnmatch(("*" + pattern + "*").c_str(), text.c_str(), 0) == 0;
 }
 
 // Whether the pattern is the type of outputs, of drives … that have this key: "trajectory".

@@ -1,7 +1,6 @@
 #include "scenes/format/measurement_reader.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +12,6 @@
 #include "scenes/format/checks.hpp"
 #include "scenes/format/suggest.hpp"
 #include "scenes/format/wrapped_angles.hpp"
-#include "sim/base/counted.hpp"
 #include "sim/beam/drive.hpp"
 
 namespace beamcam::scenes {
@@ -35,8 +33,6 @@ class MeasurementReader {
         } catch (const output::IoError& error) {
             return fail("file", error.what());
         }
-        if (!table_.notes.empty())
-            m_.notes.push_back(fmt::format("{}: {}", path.string(), fmt::join(table_.notes, ", ")));
         if (m_.label.empty()) m_.label = render::escaped(path.stem().string());
         check_markup(r_, "label", m_.label);
         find_columns();
@@ -131,8 +127,6 @@ class MeasurementReader {
                     ": the file states {} for the column {}, which is not a unit of {}; it is read in {} unless "
                     "\"units\" names another",
                     in_quotes(unit), in_quotes(column.name), key, si.empty() ? "plain numbers" : si);
-        if (factor && !by_scene)
-            m_.notes.push_back(fmt::format("{}: the column {} is in {}", m_.file, in_quotes(column.name), unit));
         return factor.value_or(1);
     }
 
@@ -182,8 +176,6 @@ class MeasurementReader {
             for (std::vector<double>& values : m_.values) values[kept] = values[i];
             ++kept;
         }
-        if (const std::size_t left_out = m_.times.size() - kept; left_out > 0)
-            m_.notes.push_back(fmt::format("{}: {} without a time left out", m_.file, counted(left_out, "row")));
         m_.times.resize(kept);
         for (std::vector<double>& values : m_.values) values.resize(kept);
     }

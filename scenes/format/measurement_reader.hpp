@@ -13,7 +13,7 @@ namespace beamcam::scenes {
 // The channels that can be measured, by name: all but the time and the coordinates of the model.
 const std::vector<std::pair<std::string, sim::Channel>>& measurable_channels();
 
-// Fills `times`, `values`, `digest` and `notes`, and `columns` where the scene names none. `r` is the object with the
+// Fills `times`, `values` and `digest`, and `columns` where the scene names none. `r` is the object with the
 // keys of the data. Reports errors with line and column, and warns of angles that are joined at their jumps.
 void read_measurement(ObjectReader& r, Measurement& m);
 

@@ -25,7 +25,6 @@ struct Measurement {
     std::vector<double> times;
     std::vector<std::vector<double>> values;
     std::string digest;
-    std::vector<std::string> notes;  // how the file was read, for `--verbose`
 
     const std::vector<double>* find(sim::Channel channel) const;      // nullptr: not measured
     Measurement of(const std::vector<sim::Channel>& channels) const;  // only these columns

@@ -1,6 +1,7 @@
 // Encodes films: encoders of libavcodec, containers of libavformat.
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstring>
 #include <memory>
 #include <string>
@@ -13,6 +14,7 @@ extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
 #include <libavutil/intreadwrite.h>
+#include <libavutil/opt.h>
 #include <libavutil/pixdesc.h>
 }
 
@@ -20,6 +22,12 @@ namespace beamcam::output::ffmpeg {
 namespace {
 
 constexpr int kThreads = 4;  // with more, the bits depend on their number
+
+using OptionList = std::vector<std::pair<std::string, std::string>>;
+
+void add_options(AVDictionary** to, const OptionList& options) {
+    for (const auto& [key, value] : options) av_dict_set(to, key.c_str(), value.c_str(), 0);
+}
 
 // FFmpeg's settings of an encoder and its container.
 struct EncoderSettings {
@@ -82,6 +90,64 @@ EncoderSettings settings_of(const VideoOptions& o, const std::string& ending) {
         s.container_options.emplace_back("movflags", "+faststart+use_metadata_tags");
     return s;
 }
+
+// A film that is being written: a container with one stream of pictures.
+class OutputFile {
+  public:
+    OutputFile(const std::filesystem::path& file, std::filesystem::path named, const char* container)
+        : named_(std::move(named)) {
+        const int code = avformat_alloc_output_context2(&format_, nullptr, container, url_of(file).c_str());
+        if (code < 0) fail("setting up the film", code);
+        stream_ = avformat_new_stream(format_, nullptr);
+        if (stream_ == nullptr) {
+            avformat_free_context(format_);
+            throw std::bad_alloc();
+        }
+    }
+    ~OutputFile() {
+        avio_closep(&format_->pb);
+        avformat_free_context(format_);
+    }
+    OutputFile(const OutputFile&) = delete;
+    OutputFile& operator=(const OutputFile&) = delete;
+
+    AVFormatContext& format() const { return *format_; }
+    AVStream& stream() const { return *stream_; }
+
+    void write_header(const OptionList& options) {
+        require(avio_open(&format_->pb, format_->url, AVIO_FLAG_WRITE));
+        format_->flags |= AVFMT_FLAG_BITEXACT;  // no library version, no date
+        AVDictionary* dictionary = nullptr;
+        add_options(&dictionary, options);
+        const int code = avformat_write_header(format_, &dictionary);
+        av_dict_free(&dictionary);
+        require(code);
+    }
+    void write(AVPacket& packet) {  // of the stream's time base
+        const int code = av_interleaved_write_frame(format_, &packet);
+        require(code >= 0 ? std::min(format_->pb->error, 0) : code);
+    }
+    // The muxer of GIF reads this option when it ends [time base of the stream]; by default the last picture would last
+    // as long as the one before.
+    void set_last_delay(std::int64_t delay) { av_opt_set_int(format_->priv_data, "final_delay", delay, 0); }
+    void end() {
+        const int code = av_write_trailer(format_), error = format_->pb->error;
+        const int closed = avio_closep(&format_->pb);
+        for (const int each : {code, error, closed}) require(each);
+    }
+
+  private:
+    void require(int code) const {
+        if (code >= 0) return;
+        if (code == AVERROR(ENOMEM)) throw std::bad_alloc();
+        const int error_number = AVUNERROR(code);
+        throw write_error(named_, error_number > 0 ? error_number : EIO);
+    }
+
+    std::filesystem::path named_;
+    AVFormatContext* format_ = nullptr;
+    AVStream* stream_ = nullptr;
+};
 
 struct OwnedFrame : FramePlanes {
     Owned<AVFrame> av = owned(av_frame_alloc());
@@ -217,7 +283,8 @@ class FfmpegEncoder : public Encoder {
         stream.sample_aspect_ratio = {1, 1};
         const int code = avcodec_parameters_from_context(stream.codecpar, codec_.get());
         if (code < 0) fail("setting up the film", code);
-        for (const auto& [key, value] : options_.metadata) file_.set_tag(key, value);
+        for (const auto& [key, value] : options_.metadata)
+            av_dict_set(&file_.format().metadata, key.c_str(), value.c_str(), 0);
         file_.write_header(settings_.container_options);
     }
 

@@ -5,12 +5,10 @@
 extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
-#include <libavutil/opt.h>
 }
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <new>
 #include <utility>
 
@@ -18,10 +16,6 @@ extern "C" {
 
 namespace beamcam::output::ffmpeg {
 namespace {
-
-std::string url_of(const std::filesystem::path& file) {
-    return "file:" + file.string();  // so that FFmpeg finds no protocol in names such as "a:b.mp4"
-}
 
 struct CloseInput {
     void operator()(AVFormatContext* film) const { avformat_close_input(&film); }
@@ -86,6 +80,10 @@ const Library kLibrary;
 
 }  // namespace
 
+std::string url_of(const std::filesystem::path& file) {
+    return "file:" + file.string();  // so that FFmpeg finds no protocol in names such as "a:b.mp4"
+}
+
 void Free::operator()(AVPacket* packet) const { av_packet_free(&packet); }
 void Free::operator()(AVFrame* frame) const { av_frame_free(&frame); }
 void Free::operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }
@@ -99,67 +97,6 @@ std::string reason(int code) {
 void fail(const char* doing, int code) {
     if (code == AVERROR(ENOMEM)) throw std::bad_alloc();
     throw CodecFailure(std::string(doing) + ": " + reason(code));
-}
-
-void add_options(AVDictionary** to, const OptionList& options) {
-    for (const auto& [key, value] : options) av_dict_set(to, key.c_str(), value.c_str(), 0);
-}
-
-// ---- writing -------------------------------------------------------------------------------------
-
-OutputFile::OutputFile(const std::filesystem::path& file, std::filesystem::path named, const std::string& container)
-    : named_(std::move(named)) {
-    const int code = avformat_alloc_output_context2(&format_, nullptr, container.c_str(), url_of(file).c_str());
-    if (code < 0) fail("setting up the film", code);
-    stream_ = avformat_new_stream(format_, nullptr);
-    if (stream_ == nullptr) {
-        avformat_free_context(format_);
-        throw std::bad_alloc();
-    }
-}
-
-OutputFile::~OutputFile() {
-    avio_closep(&format_->pb);
-    avformat_free_context(format_);
-}
-
-void OutputFile::fail_to_write(int code) const {
-    if (code == AVERROR(ENOMEM)) throw std::bad_alloc();
-    const int error_number = AVUNERROR(code);
-    throw write_error(named_, error_number > 0 ? error_number : EIO);
-}
-
-void OutputFile::set_tag(const std::string& key, const std::string& value) {
-    av_dict_set(&format_->metadata, key.c_str(), value.c_str(), 0);
-}
-
-void OutputFile::write_header(const OptionList& options) {
-    int code = avio_open(&format_->pb, format_->url, AVIO_FLAG_WRITE);
-    if (code < 0) fail_to_write(code);
-    // bitexact: no library version, no date.
-    format_->flags |= AVFMT_FLAG_BITEXACT;
-    AVDictionary* dictionary = nullptr;
-    add_options(&dictionary, options);
-    code = avformat_write_header(format_, &dictionary);
-    av_dict_free(&dictionary);
-    if (code < 0) fail_to_write(code);
-}
-
-void OutputFile::write(AVPacket& packet) {
-    int code = av_interleaved_write_frame(format_, &packet);
-    if (code >= 0 && format_->pb->error < 0) code = format_->pb->error;
-    if (code < 0) fail_to_write(code);
-}
-
-// The muxer reads this option when it ends; by default the last picture would last as long as the one before.
-void OutputFile::set_last_delay(std::int64_t delay) { av_opt_set_int(format_->priv_data, "final_delay", delay, 0); }
-
-void OutputFile::end() {
-    int code = av_write_trailer(format_);
-    if (code >= 0 && format_->pb->error < 0) code = format_->pb->error;
-    const int closed = avio_closep(&format_->pb);
-    if (code >= 0) code = closed;
-    if (code < 0) fail_to_write(code);
 }
 
 }  // namespace beamcam::output::ffmpeg

@@ -1,21 +1,16 @@
-// Functions that the files of this module share: FFmpeg's errors as exceptions, and the file that is written.
+// Functions that the files of this module share: FFmpeg's objects, and its errors as exceptions.
 #pragma once
 
 #include <filesystem>
 #include <memory>
 #include <new>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "output/film/video_library.hpp"
 
 struct AVCodecContext;
-struct AVDictionary;
-struct AVFormatContext;
 struct AVFrame;
 struct AVPacket;
-struct AVStream;
 
 namespace beamcam::output::ffmpeg {
 
@@ -33,6 +28,8 @@ Owned<Object> owned(Object* made) {
     return Owned<Object>(made);
 }
 
+std::string url_of(const std::filesystem::path& file);
+
 // FFmpeg's message for a negative status.
 std::string reason(int code);
 
@@ -41,34 +38,5 @@ std::string reason(int code);
 
 std::unique_ptr<Encoder> open_encoder(const VideoOptions& options, const std::filesystem::path& file,
                                       const std::filesystem::path& named);
-
-using OptionList = std::vector<std::pair<std::string, std::string>>;
-
-// A film that is being written: a container with one stream of pictures.
-class OutputFile {
-  public:
-    // `named`: its name in messages.
-    OutputFile(const std::filesystem::path& file, std::filesystem::path named, const std::string& container);
-    ~OutputFile();
-    OutputFile(const OutputFile&) = delete;
-    OutputFile& operator=(const OutputFile&) = delete;
-
-    AVFormatContext& format() const { return *format_; }
-    AVStream& stream() const { return *stream_; }
-    void set_tag(const std::string& key, const std::string& value);
-    void write_header(const OptionList& options);
-    void write(AVPacket& packet);             // of the stream's time base
-    void set_last_delay(std::int64_t delay);  // of a GIF: of its last picture, in the time base of the stream
-    void end();
-
-  private:
-    [[noreturn]] void fail_to_write(int code) const;
-
-    std::filesystem::path named_;
-    AVFormatContext* format_ = nullptr;
-    AVStream* stream_ = nullptr;
-};
-
-void add_options(AVDictionary** to, const OptionList& options);
 
 }  // namespace beamcam::output::ffmpeg
