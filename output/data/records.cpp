@@ -192,14 +192,12 @@ void write_impacts(const FileTarget& file, const sim::Result& result) {
 }
 
 std::string summary_json(const sim::Problem& problem, const sim::Result& result,
-                         const std::vector<ChannelExtremum>& extrema, const Work* work,
-                         const std::vector<Agreement>& data) {
-    Node steps = object_node(), counts = object_node();
+                         const std::vector<ChannelExtremum>& extrema, const std::vector<Agreement>& data) {
+    Node steps = object_node();
     for (const auto& [method, count] : result.steps_by_method) add(steps, sim::name(method), count);
     Node zeros = array_node(result.theta_zero, [](const sim::ZeroCrossing& zero) {
         return object_node({{"t", zero.t}, {"theta_dot", zero.theta_dot}});
     });
-    if (work) for_each_count(*work, [&](const char* name, long count) { add(counts, name, count); });
 
     Node out = object_node({{"units", units(problem)},
                             {"model", sim::name(problem.beam.model)},
@@ -221,7 +219,6 @@ std::string summary_json(const sim::Problem& problem, const sim::Result& result,
         add(out, "data",
             array_node(data, [&](const Agreement& each) { return agreement_node(each, unit(each.channel, problem)); }));
     add(out, "warnings", result.warnings);
-    if (work) add(out, "work", std::move(counts));
     return to_text(out);
 }
 

@@ -7,7 +7,6 @@
 
 #include "output/files/errors.hpp"
 #include "output/files/target.hpp"
-#include "output/files/work.hpp"
 #include "sim/beam/modes.hpp"
 #include "sim/cam/lever.hpp"
 #include "sim/observe/channels.hpp"
@@ -38,8 +37,7 @@ struct Agreement {
 };
 // "units" lists all channels of the problem.
 std::string summary_json(const sim::Problem& problem, const sim::Result& result,
-                         const std::vector<ChannelExtremum>& extrema, const Work* work = nullptr,
-                         const std::vector<Agreement>& data = {});
+                         const std::vector<ChannelExtremum>& extrema, const std::vector<Agreement>& data = {});
 
 // {"modes": [{"omega", "hz", "shape": [[x, y], …]}, …]}; omega and hz are null for a diverging mode.
 std::string modes_json(const std::vector<sim::Mode>& modes);

@@ -122,7 +122,7 @@ static std::string write(const StateOutput& state, const DataFile& data, const D
     return fmt::format("state at {:g} s", state.at);
 }
 
-// ---- "summary": counts, extrema, energy balance and warnings of the run, and the work for all outputs.
+// ---- "summary": counts, extrema, energy balance and warnings of the run.
 
 void SummaryOutput::visit(SceneVisitor& v) {
     visit_file(v, file, {".json"}, "-summary.json");
@@ -167,7 +167,7 @@ static std::string write(const SummaryOutput& summary, const DataFile& data, con
         for (output::Agreement& each :
              agreements(scene.data[i].within(0, run_end(scene)), from.run.tables[data.tables[i]], from.run))
             all.push_back(std::move(each));
-    const std::string json = output::summary_json(from.scene.problem, from.run, extrema, &from.work, all);
+    const std::string json = output::summary_json(from.scene.problem, from.run, extrema, all);
     from.file ? output::write_file(*from.file, json) : output::print_json(json);
     return from.run.reproducibility;
 }

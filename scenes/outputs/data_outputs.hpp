@@ -5,7 +5,6 @@
 
 #include "output/data/sweep_data.hpp"
 #include "output/files/target.hpp"
-#include "output/files/work.hpp"
 #include "scenes/plan/plan.hpp"
 
 namespace beamcam::scenes {
@@ -15,7 +14,6 @@ struct DataSource {
     const Scene& scene;
     const sim::Request& request;     // of the scene's motion, for data files
     const sim::Result& run;          // its result
-    const output::Work& work;        // until now
     const output::FileTarget* file;  // null: standard output
     const output::SweepData* sweep;  // null unless the plan needs it
 };

@@ -6,9 +6,9 @@
 
 #include "output/data/file_list.hpp"
 #include "output/files/standard_output.hpp"
-#include "output/files/work.hpp"
 #include "scenes/motions/motion_pool.hpp"
 #include "scenes/outputs/run.hpp"
+#include "scenes/outputs/work.hpp"
 #include "sim/base/clock.hpp"
 #include "sim/base/counted.hpp"
 
@@ -33,7 +33,7 @@ struct RunContext {
     Progress progress;
     output::FileList file_list;
     MotionPool motions;
-    output::Work work;
+    Work work;
     Times times;
     std::size_t rejected = 0;        // outputs that could not be written
     std::exception_ptr first_error;  // of them

@@ -170,23 +170,16 @@ void SceneRun::compute_sweep() {
 // ---- files -------------------------------------------------------------------------------------
 
 void SceneRun::write_outputs() {
-    const auto reports_work = [&](const DataFile& d) { return std::holds_alternative<SummaryOutput>(output_of(d)); };
-    const auto write_data_files = [&](bool reporting) {
-        for (const DataFile& d : plan_.data)
-            if (reports_work(d) == reporting) attempt(d.output, [&] { write_data_file(d); });
-    };
-    write_data_files(false);
+    for (const DataFile& d : plan_.data) attempt(d.output, [&] { write_data_file(d); });
     for (std::size_t i = 0; i < plan_.figures.size(); ++i) attempt(plan_.figures[i].output, [&] { write_figure(i); });
     for (const PlannedPictures& p : plan_.pictures) attempt(p.output, [&] { write_pictures(p); });
-    write_data_files(true);
     if (sweep_ && !rejected_) sweep_->remove();
 }
 
 DataSource SceneRun::source_of(const sim::Result& run, const output::FileTarget* file) const {
     static const sim::Request kNone;
-    return {scene_, plan_.run ? plan_.motions[*plan_.run].request : kNone,
-            run,    context_.work,
-            file,   sweep_ ? &sweep_->data() : nullptr};
+    return {scene_, plan_.run ? plan_.motions[*plan_.run].request : kNone, run, file,
+            sweep_ ? &sweep_->data() : nullptr};
 }
 
 void SceneRun::write_data_file(const DataFile& d) {

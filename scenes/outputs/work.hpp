@@ -1,7 +1,7 @@
 // Counts of the work of a run, by which tests prove that nothing unnecessary is done.
 #pragma once
 
-namespace beamcam::output {
+namespace beamcam::scenes {
 
 struct Work {
     long integrations = 0;  // of equations of motion, except for sweeps; a horizon takes two
@@ -40,4 +40,4 @@ void for_each_count(const Work& w, Visit visit) {
     visit("bytes_written", w.bytes_written);
 }
 
-}  // namespace beamcam::output
+}  // namespace beamcam::scenes
