@@ -38,6 +38,12 @@ std::size_t MotionPool::add(MotionRequest request) {
     return entries_.size() - 1;
 }
 
+sim::Result MotionPool::take(std::size_t request) {
+    Entry& entry = entries_[request];
+    if (entry.failure) std::rethrow_exception(entry.failure);
+    return std::move(entry.result);
+}
+
 const sim::Result* MotionPool::partial(std::size_t request) const {
     return entries_[request].partial ? &entries_[request].result : nullptr;
 }
@@ -62,6 +68,7 @@ std::vector<MotionPool::Group> MotionPool::groups() {
 void MotionPool::compute() {
     const std::vector<Group> all = groups();
     if (all.empty()) return;
+    motions_ += all.size();
     double total = 0;
     for (const Group& group : all) total += end_of(group.front()->wanted.request);
     ProgressSum sum(all.size(), progress_);
@@ -82,8 +89,13 @@ void MotionPool::compute(const Group& group, const sim::Progress& progress) {
     try {
         hand_out(integrate(group.front()->wanted.problem, requests, progress), false);
     } catch (const sim::SolverError& error) {
-        if (!error.partials.empty()) hand_out(error.partials, true);
-        throw;
+        if (!options_.keep_going) {
+            if (!error.partials.empty()) hand_out(error.partials, true);
+            throw;
+        }
+        if (group.size() == 1) group.front()->failure = std::current_exception();
+        for (Entry* entry : group)  // the integration may succeed for a request that ends earlier
+            if (group.size() > 1) compute({entry}, progress);
     }
 }
 

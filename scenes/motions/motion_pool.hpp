@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <exception>
 #include <mutex>
 #include <span>
 #include <string>
@@ -19,21 +20,24 @@ class MotionPool {
     struct Options {
         int threads = 1;
         bool quiet = false, verbose = false;
+        bool keep_going = false;  // an integration that fails costs only its own requests
     };
     // `progress` must outlive this.
     MotionPool(Progress& progress, const Options& options) : progress_(progress), options_(options) {}
 
     // Returns the number of the request.
     std::size_t add(MotionRequest request);
-    // Computes all requests that were added since the last call. Throws what sim::simulate throws.
+    // Computes all requests that were added since the last call. Throws what sim::simulate throws; with `keep_going`
+    // `take` throws sim::SolverError instead.
     void compute();
     // The result of a request, with the same bits as in a run for it alone; once.
-    sim::Result take(std::size_t request) { return std::move(entries_[request].result); }
+    sim::Result take(std::size_t request);
     // The result of a failed integration until its end; null if another motion failed.
     const sim::Result* partial(std::size_t request) const;
     // Integrates immediately, to find events on which other requests depend.
     sim::Result find_events(const sim::Problem& problem, const sim::Request& request);
 
+    std::size_t motions() const { return motions_; }  // that were computed
     const sim::Effort& effort() const { return effort_; }
 
   private:
@@ -41,6 +45,7 @@ class MotionPool {
         MotionRequest wanted;
         sim::Result result;
         bool partial = false;
+        std::exception_ptr failure = {};
     };
     using Group = std::vector<Entry*>;  // the requests for one motion
 
@@ -53,8 +58,8 @@ class MotionPool {
     Progress& progress_;
     Options options_;
     std::deque<Entry> entries_;
-    std::size_t computed_ = 0;  // number of computed entries
-    std::mutex mutex_;          // guards the effort
+    std::size_t computed_ = 0, motions_ = 0;  // numbers of computed entries, and of their motions
+    std::mutex mutex_;                        // guards the effort
     sim::Effort effort_;
 };
 

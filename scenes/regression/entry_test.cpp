@@ -41,8 +41,7 @@ EntryTest::EntryTest(const Baselines& baselines, const Baseline& entry, const Re
             {},
             options.report,
             report_files},
-      pictures_(test_),
-      motion_(test_) {
+      pictures_(test_) {
     if (entry.has_pictures()) test_.result.picture = Verdict::identical;
     if (entry.has_motion()) test_.result.motion = Verdict::identical;
 }
@@ -74,7 +73,6 @@ void EntryTest::prepare() {
 }
 
 void EntryTest::request(MotionPool& pool) {
-    requests_.clear();
     for (const MotionRequest& each : plan_.motions) requests_.push_back(pool.add(each));
 }
 
@@ -84,7 +82,8 @@ void EntryTest::request_record() {
     const bool is_table = std::holds_alternative<TrajectoryOutput>(test_.entry.output());
     recorded_ = is_table ? plan_.data.front().tables.front() : tables.size();
     if (!is_table && needs_motion()) tables.push_back(motion_behind_picture(test_.entry.scene.problem, until_));
-    if (records_all_channels(test_.entry))
+    // The energy residual, an error of the solver, is not compared.
+    if (is_table && std::get<TrajectoryOutput>(test_.entry.output()).channels.empty())
         std::erase_if(tables[recorded_].channels,
                       [](const sim::Channel& channel) { return channel.kind == sim::ChannelKind::energy_residual; });
 }
@@ -104,13 +103,13 @@ void EntryTest::judge(MotionPool& pool, const RunOptions& options) {
     const sim::Result& run = results[*plan_.run];
     if (test_.result.picture) require_reproducible(run, until_);
     if (needs_motion()) {
-        motion_.judge(0, "", run.tables[recorded_], run.impacts, until_, run.reproducible_until);
+        judge_motion(test_, 0, "", run.tables[recorded_], run.impacts, until_, run.reproducible_until);
         for (const PlannedPictures& p : plan_.pictures)
             for (std::size_t i = 0; i < p.compare.size(); ++i) {
                 const sim::Result& other = results[p.motions[i]];
                 require_reproducible(other, p.end_time);
-                motion_.judge(i + 1, p.compare[i].label + ": ", other.tables.back(), other.impacts, p.end_time,
-                              other.reproducible_until);
+                judge_motion(test_, i + 1, p.compare[i].label + ": ", other.tables.back(), other.impacts, p.end_time,
+                             other.reproducible_until);
             }
     }
     DrawCallbacks callbacks{
@@ -122,7 +121,7 @@ void EntryTest::judge(MotionPool& pool, const RunOptions& options) {
 }
 
 void EntryTest::judge_sweep(int threads, Progress& progress) {
-    motion_.judge_sweep(threads, progress);
+    scenes::judge_sweep(test_, threads, progress);
     update();
 }
 

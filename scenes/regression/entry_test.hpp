@@ -52,7 +52,6 @@ class EntryTest {
     const RegressionOptions& options_;
     EntryContext test_;
     EntryPictures pictures_;
-    EntryMotion motion_;
     PlanWithFigures plan_;
     std::vector<std::size_t> requests_;  // numbers of the plan's motions in the pool
     std::size_t recorded_ = 0;           // index of the recorded table in the plan's request

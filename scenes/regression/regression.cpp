@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
 #include <memory>
 
 #include "output/files/atomic_file.hpp"
@@ -10,7 +9,6 @@
 #include "render/base/error.hpp"
 #include "scenes/motions/fan_out.hpp"
 #include "scenes/motions/fingerprint.hpp"
-#include "scenes/motions/identity.hpp"
 #include "scenes/motions/motion_pool.hpp"
 #include "scenes/regression/entry_test.hpp"
 #include "scenes/scene/exit_code.hpp"
@@ -39,9 +37,8 @@ class Regression {
         const auto started = Clock::now();
         result_.baselines = path_;
         choose_entries();
-        run_groups();
+        run_motions();
         run_sweeps();
-        result_.simulations = simulations_;
         for (const EntryResult& entry : result_.entries) result_.pictures += entry.frames.size();
         result_.seconds = seconds_since(started);
         return std::move(result_);
@@ -80,49 +77,29 @@ class Regression {
         result.exit_code = exit_code;
     }
 
-    using Group = std::vector<EntryTest*>;  // entries with the same mechanics, which share one integration
-
-    // Groups run in parallel; each draws with an equal share of the threads.
-    void run_groups() {
-        const std::vector<Group> all = groups();
+    // Entries with the same mechanics share one integration. They are judged in parallel; each draws with an equal
+    // share of the threads.
+    void run_motions() {
+        std::vector<EntryTest*> tests;
+        for (const auto& test : tests_)
+            if (!test->entry().is_sweep) tests.push_back(test.get());
         const int threads = thread_count(options_.run.threads);
-        RunOptions each = options_.run;
-        each.threads = std::max(1, threads / std::max(1, static_cast<int>(all.size())));
-        fan_out(all.size(), threads, [&](std::size_t k) { run_group(all[k], each); });
-    }
-
-    void run_group(Group group, const RunOptions& options) {
-        std::erase_if(group, [](EntryTest* test) { return !test->attempt([&] { test->prepare(); }); });
-        if (group.empty()) return;
+        fan_out(tests.size(), threads, [&](std::size_t k) {
+            if (!tests[k]->attempt([&] { tests[k]->prepare(); })) tests[k] = nullptr;
+        });
+        std::erase(tests, nullptr);
         Progress silent(ProgressStyle::none);
-        MotionPool pool(silent, {.threads = options.threads, .quiet = true});
-        for (EntryTest* test : group) test->request(pool);
-        try {
-            pool.compute();
-        } catch (const sim::SolverError& error) {
-            if (group.size() == 1) group.front()->attempt([&] { throw error; });
-            for (EntryTest* test : group)  // the integration may succeed for an entry that ends earlier
-                if (group.size() > 1) run_group({test}, options);
-            return;
-        }
-        ++simulations_;
-        for (EntryTest* test : group) {
+        MotionPool pool(silent, {.threads = threads, .quiet = true, .keep_going = true});
+        for (EntryTest* test : tests) test->request(pool);
+        pool.compute();
+        result_.simulations = pool.motions();
+        RunOptions each = options_.run;
+        each.threads = std::max(1, threads / std::max(1, static_cast<int>(tests.size())));
+        fan_out(tests.size(), threads, [&](std::size_t k) {
             const auto started = Clock::now();
-            test->attempt([&] { test->judge(pool, options); });
-            test->result().seconds = seconds_since(started);
-        }
-    }
-
-    std::vector<Group> groups() {
-        std::map<std::string, std::size_t> index;
-        std::vector<Group> all;
-        for (const auto& test : tests_) {
-            if (test->entry().is_sweep) continue;
-            const auto [found, added] = index.emplace(motion_key(test->entry().scene.problem), all.size());
-            if (added) all.emplace_back();
-            all[found->second].push_back(test.get());
-        }
-        return all;
+            tests[k]->attempt([&] { tests[k]->judge(pool, each); });
+            tests[k]->result().seconds = seconds_since(started);
+        });
     }
 
     // Their points run in parallel.
@@ -139,7 +116,6 @@ class Regression {
     std::string path_;
     const RegressionOptions& options_;
     Baselines baselines_;
-    std::atomic<std::size_t> simulations_ = 0;
     output::FileList report_files_;
     std::map<Renderer, std::string> renderers_;  // their ids
     RegressionResult result_;

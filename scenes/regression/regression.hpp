@@ -1,7 +1,6 @@
 // Renders and simulates the entries of a file of baselines, and judges picture and motion of each separately.
 //
-// Entries with the same mechanics are integrated once, up to the last instant that any of them shows. Caches are not
-// used: the test runs the present program.
+// Entries with the same mechanics are integrated once, up to the last instant that any of them shows.
 #pragma once
 
 #include <filesystem>

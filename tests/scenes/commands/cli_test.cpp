@@ -210,12 +210,11 @@ TEST(CommandLine, QuietKeepsStandardOutput) {
     EXPECT_THAT(shell(folder, "$BEAMCAM check --help").out, HasSubstr("standard output stays"));
 }
 
-TEST(CommandLine, ARangeEndsWithACountOrAStep) {
+TEST(CommandLine, ARangeEndsWithACount) {
     const Folder folder;
     folder.write("s.json", "{}");
     for (const auto& [third, points] :
-         {std::pair{"2", 2}, std::pair{"21", 21}, std::pair{"5:log", 5}, std::pair{"2.0", 11}, std::pair{"2n", 2},
-          std::pair{"1", 21}, std::pair{"4:linear", 4}})
+         {std::pair{"2", 2}, std::pair{"21", 21}, std::pair{"5:log", 5}, std::pair{"4:linear", 4}})
         EXPECT_THAT(shell(folder, fmt::format("$BEAMCAM sweep s.json -n --over cam.speed=40:60:{}", third)).out,
                     HasSubstr(fmt::format("cam.speed: {} points\n", points)));
 }
