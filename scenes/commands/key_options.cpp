@@ -25,26 +25,21 @@ Node value_of(const std::string& text, std::size_t source, std::vector<Message>&
 
 const DescribedKey& described_key(const std::string& type, const std::string& key) {
     static const std::vector<KeyRow> rows = key_rows();
-    const std::string path = "outputs[]." + key, tag = "type=" + type;
-    const auto row = std::ranges::find_if(rows, [&](const KeyRow& each) {
-        const std::size_t at = each.when.find(tag);
-        return each.path == path && at != std::string::npos &&
-               (at + tag.size() == each.when.size() || each.when[at + tag.size()] == ' ');
-    });
-    if (row == rows.end()) throw std::logic_error(fmt::format("there is no key {} of {}", path, tag));
+    const std::string path = "outputs[]." + key;
+    const auto row =
+        std::ranges::find_if(rows, [&](const KeyRow& each) { return each.path == path && is_of_type(each, type); });
+    if (row == rows.end()) throw std::logic_error(fmt::format("there is no key {} of {}", path, type));
     return *row->key;
 }
 
 // "still, video": the types of outputs that have this key.
 std::string types_with(const std::string& key) {
-    std::vector<std::string> types;
-    for (const KeyRow& row : key_rows()) {
-        if (row.path != "outputs[]." + key) continue;
-        for (std::size_t at = 0; (at = row.when.find("type=", at)) != std::string::npos;) {
-            at += 5;
-            types.push_back(row.when.substr(at, row.when.find(' ', at) - at));
-        }
-    }
+    const std::vector<KeyRow> rows = key_rows();
+    std::vector<std::string> types = std::ranges::find(rows, "outputs[].type", &KeyRow::path)->key->words;
+    std::erase_if(types, [&](const std::string& type) {
+        return std::ranges::none_of(
+            rows, [&](const KeyRow& row) { return row.path == "outputs[]." + key && is_of_type(row, type); });
+    });
     return fmt::format("{}", fmt::join(types, ", "));
 }
 

@@ -25,18 +25,11 @@ bool matches(const std::string& text, std::string pattern) {
     return fnmatch(("*" + pattern + "*").c_str(), text.c_str(), 0) == 0;
 }
 
-// Whether the pattern is the type of outputs, of drives … that have this key: "trajectory".
-bool belongs_to(const KeyRow& row, const std::string& pattern) {
-    const std::string type = "type=" + pattern;
-    const std::size_t at = row.when.find(type);
-    return !pattern.empty() && at != std::string::npos && (row.when + " ").find_first_of(" ,", at) == at + type.size();
-}
-
 std::vector<KeyRow> chosen(const std::string& pattern) {
     std::vector<KeyRow> rows = key_rows();
     std::erase_if(rows, [&](const KeyRow& row) {
         return !matches(lowered(row.path), lowered(pattern)) && !matches(lowered(row.key->meaning), lowered(pattern)) &&
-               !belongs_to(row, pattern);
+               (pattern.empty() || !is_of_type(row, pattern));
     });
     return rows;
 }

@@ -70,6 +70,8 @@ constexpr Absent kAbsent[] = {
     {WordKind::key, "expected", "it was withdrawn; beamcam diff compares pictures of other programs"},
 
     {WordKind::value, "type=model", "3-D models were withdrawn; a \"page\" plays the motion in a browser"},
+    {WordKind::value, "type=shapes",
+     "it was withdrawn; beamcam figure SCENE kymograph --data FILE.csv has the deflections"},
     {WordKind::value, "type=sweep-film", "it was withdrawn; write a \"sweep\", a \"figure\" and \"video\" outputs"},
     {WordKind::value, "codec=hevc codec=av1 codec=apng",
      "it was withdrawn; write h264, or vp9 or prores for a transparent film"},
@@ -86,6 +88,7 @@ constexpr Absent kAbsent[] = {
     {WordKind::unit, "newton newtons", "write N"},
 
     {WordKind::command, "accept", "it was withdrawn; write beamcam test BASELINES --update NAME"},
+    {WordKind::command, "completion manual", "it was withdrawn; scenes/completion.bash completes, --help explains"},
     {WordKind::command, "cache", "it was withdrawn: motions are not stored between runs"},
     {WordKind::command, "concat", "it was withdrawn; write ffmpeg -f concat -i LIST.txt -c copy FILM.mp4"},
     {WordKind::command, "sheet", "it was withdrawn; write ffmpeg -i FILM.mp4 -vf fps=1,tile=4x3 -frames:v 1 SHEET.png"},
@@ -97,6 +100,8 @@ constexpr Absent kAbsent[] = {
     {WordKind::option, "--no-cache", "it was withdrawn: motions are not stored between runs"},
     {WordKind::option, "--frames", "it was withdrawn; --from and --to choose a part of a film"},
     {WordKind::option, "--shard", "films are made in one piece; beamcam sweep --shard divides a sweep"},
+    {WordKind::option, "--shapes",
+     "it was withdrawn; beamcam figure SCENE kymograph --data FILE.csv has the deflections"},
     {WordKind::option, "--collision", "it was withdrawn; write --from collision:3 --to liftoff:3"},
     {WordKind::option, "--emit --parts",
      "it was withdrawn; scenes/SWEEPS.md has recipes for GNU parallel, Snakemake and Slurm"},

@@ -59,6 +59,7 @@ struct KeyRow {
     const DescribedKey* key;
 };
 std::vector<KeyRow> key_rows();
+bool is_of_type(const KeyRow& row, const std::string& type);  // a key of outputs, drives … of this type
 // "; its place is "cam.speed"": where a key that an object does not have is a key, the three outermost places. `path`:
 // where it was found, "outputs.0.unit". `inside`: only within that object, which has this `type`, or none.
 std::string place_of_key(const std::string& path, const std::string& type, bool inside);

@@ -72,6 +72,12 @@ std::vector<KeyRow> key_rows() {
     return merged;
 }
 
+bool is_of_type(const KeyRow& row, const std::string& type) {
+    const std::string tag = "type=" + type;
+    const std::size_t at = row.when.find(tag);
+    return at != std::string::npos && (row.when + " ").find_first_of(" ,", at) == at + tag.size();
+}
+
 std::string place_of_key(const std::string& path, const std::string& type, bool inside) {
     constexpr std::size_t kMostPlaces = 3;
     const std::string key = path.substr(path.rfind('.') + 1);  // npos + 1 is 0
@@ -82,7 +88,7 @@ std::string place_of_key(const std::string& path, const std::string& type, bool 
     std::vector<std::string> places;
     for (const KeyRow& row : key_rows()) {
         const bool within = row.path.starts_with(object) && row.path.size() > object.size() + key.size();
-        const bool other_type = !type.empty() && row.when.find("type=" + type) == std::string::npos;
+        const bool other_type = !type.empty() && !is_of_type(row, type);
         if (!("." + row.path).ends_with("." + key) || (inside && (!within || other_type))) continue;
         if (std::ranges::find(places, row.path) == places.end()) places.push_back(row.path);
     }
