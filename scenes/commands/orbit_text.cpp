@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 
 #include "scenes/figures/axis_labels.hpp"
 #include "sim/base/counted.hpp"
@@ -12,28 +11,13 @@
 namespace beamcam::scenes {
 namespace {
 
-std::string complex_text(std::complex<double> m) {
-    return m.imag() == 0 ? fmt::format("{:.9g}", m.real()) : fmt::format("{:.9g}{:+.9g}i", m.real(), m.imag());
-}
-
 std::string orbit_text(const sim::PeriodicOrbit& orbit) {
-    std::string text = fmt::format("period {} of the cam, {}: {}{}\n", counted(orbit.turns, "turn"),
-                                   counted(orbit.impacts.size(), "impact"), orbit.stable() ? "stable" : "unstable",
-                                   orbit.chatters()          ? ", rests on the cam for a part of the period"
-                                   : orbit.always_touching() ? ", always touching"
-                                                             : "");
-    text += fmt::format("  period {:.12g} s, section at cam angle {:.9g} rad, residual {:.1e}\n", orbit.period,
-                        orbit.section, orbit.residual);
-    text += "  multipliers";
-    for (const auto& m : orbit.multipliers) text += " " + complex_text(m);
-    text += "\n";
-    constexpr std::size_t kMostImpacts = 12;
-    for (std::size_t i = 0; i < std::min(kMostImpacts, orbit.impacts.size()); ++i)
-        text += fmt::format("  impact at cam angle {:.9g} rad, approach {:.9g} m/s\n", orbit.impacts[i].cam_angle,
-                            orbit.impacts[i].approach);
-    if (orbit.impacts.size() > kMostImpacts)
-        text += fmt::format("  and {} more\n", orbit.impacts.size() - kMostImpacts);
-    return text;
+    return fmt::format("period {} of the cam, {:.12g} s, {}: {}, largest multiplier {:.9g}{}\n",
+                       counted(orbit.turns, "turn"), orbit.period, counted(orbit.impacts.size(), "impact"),
+                       orbit.stable() ? "stable" : "unstable", orbit.largest_multiplier(),
+                       orbit.chatters()          ? ", rests on the cam for a part of the period"
+                       : orbit.always_touching() ? ", always touching"
+                                                 : "");
 }
 
 // Along a branch that rests on the cam the number of impacts varies: they die out before it.
