@@ -3,8 +3,7 @@
 
 #include <cstdlib>
 
-#include "scenes/commands/commands.hpp"
-#include "scenes/figures/figure_types.hpp"
+#include "scenes/commands/key_options.hpp"
 #include "scenes/figures/sweeps.hpp"
 #include "scenes/format/checks.hpp"
 #include "scenes/format/file_column.hpp"
@@ -23,10 +22,8 @@ struct SweepArguments {
     std::vector<std::string> over;
     std::optional<std::string> sample, transient, keep, seed;
     bool exponents = false;
-    std::optional<std::string> diagram, figure, value, caption;
-    std::string column = "elsevier";
-    Lang lang = Lang::en;
-    std::optional<std::string> shard;
+    std::optional<std::string> diagram, caption, shard;
+    KeyOptions keys{"figure"};  // of the diagram
 };
 
 // The entry of "over" that the option stands for: KEY=FIRST:LAST:COUNT, then :log; KEY=v,v,…; KEY=@FILE:COLUMN.
@@ -89,25 +86,15 @@ Scene with_sweep_options(Scene scene, const SweepArguments& args) {
     return scene;
 }
 
-void check_value(const SweepArguments& args, std::string_view diagram, const Scene& scene) {
-    const std::string problem = problem_with_value(diagram, args.value.value_or(""), scene);
-    if (!problem.empty()) throw UsageError(fmt::format("--value {}: {}", *args.value, problem));
-}
-
 // The files of the sweep as outputs of its scene.
 std::vector<Output> outputs_of(const SweepArguments& args, const Scene& scene) {
     std::vector<Output> outputs;
     if (!args.file.empty() || !args.diagram) outputs.emplace_back(SweepOutput{args.file.empty() ? "-" : args.file});
     if (!args.diagram) return outputs;
-    FigureOutput diagram;
+    auto diagram = std::get<FigureOutput>(
+        read_output(object_node({{"type", FigureOutput::kType}, {"figure", usual_diagram(scene)}}), {&args.keys}, scene,
+                    args.scene, args.common));
     diagram.file = *args.diagram;
-    diagram.figure = args.figure.value_or(usual_diagram(scene));
-    if (const auto why = figure_type(diagram.figure)->refusal(scene))
-        throw UsageError(fmt::format("--figure {}: {}", diagram.figure, *why));
-    check_value(args, diagram.figure, scene);
-    diagram.value = args.value.value_or("");
-    diagram.column = args.column;
-    diagram.lang = args.lang;
     diagram.caption_file = args.caption.value_or("");
     outputs.emplace_back(std::move(diagram));
     return outputs;
@@ -124,8 +111,8 @@ void check_parts(const SweepArguments& args) {
 void reject_unused_options(const SweepArguments& args) {
     if (args.diagram) return;
     if (args.caption) throw UsageError("--caption belongs to --diagram");
-    if (args.figure) throw UsageError("--figure belongs to --diagram");
-    if (args.value) throw UsageError("--value belongs to --diagram");
+    for (const auto& [option, key] : args.keys.given())
+        throw UsageError(fmt::format("{} belongs to --diagram", option));
 }
 
 void act(const SweepArguments& args) {
@@ -171,14 +158,12 @@ void add_sweep(Program& program) {
     add_option(app, "-o,--output", args.file, "FILE",
                "Table of samples: .csv, .npz or .nc (NetCDF-4); without any file, CSV on standard output");
     add_option(app, "--diagram", args.diagram, "FILE", "Figure of the sweep: .pdf, .svg or .png");
-    one_of(add_option(app, "--figure", args.figure, "NAME", "Kind of --diagram (default: depends on the swept keys)"),
+    one_of(args.keys.add(app, "--figure", "figure", "NAME")
+               ->description("Kind of --diagram (default: depends on the swept keys)"),
            diagram_names());
-    add_option(
-        app, "--value,--ordinate", args.value, "WHAT",
-        "Quantity that --diagram shows. bifurcation, peaks: a column of the samples (default: v_n_before, "
-        "theta, force_peak); map, basins: class (default), exponent, impacts_per_period, or the mean of a column");
-    add_column(app, args.column);
-    add_lang(app, args.lang);
+    args.keys.add(app, "--value", "value", "WHAT", "Of --diagram.");
+    args.keys.add(app, "--column", "column", "COLUMN", "Of --diagram.");
+    args.keys.add(app, "--lang", "lang", "LANG", "Of --diagram.");
     add_option(app, "--caption", args.caption, "FILE", "Write the caption of the figure, too: .txt or .md");
     add_option(app, "--shard", args.shard, "I/N",
                "Compute part I of N into a separate file: 2/3 writes NAME.2of3.points; `beamcam collect` joins the "

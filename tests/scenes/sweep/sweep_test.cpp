@@ -277,7 +277,7 @@ TEST(SweepCommand, RejectsWithAMessage) {
           {"--transient 1e19", 2, "up to 1e+09"},
           {"--over initial.angle=0.4:0.5:2 --seed carry-up", 2, "use \"same\""},
           {"--caption c.txt", 2, "belongs to --diagram"},
-          {"--diagram d.pdf --value v_n", 2, "--value v_n: the samples of the sweep have no column \"v_n\""},
+          {"--diagram d.pdf --value v_n", 2, "--value: the samples of the sweep have no column \"v_n\""},
           {"--over 'cam.speed=100:900:9 rpm'", 2, "some of its numbers have a unit"},
           {"--over 'cam.speed=100:900 rpm:9'", 2, "some of its numbers have a unit"},
           {"--over 'cam.speed=300 rpm,400'", 2, "some of its numbers have a unit"},
