@@ -124,8 +124,7 @@ TEST_F(MachineFiles, AreReadWithColumnsThatTheSceneDoesNotName) {
     }
     const Finished german =
         read("time;angle\n" + body([&](auto& t, auto& a) { return with_commas(t) + ";" + with_commas(a); }), "RIG.CSV");
-    EXPECT_EQ(german.code, 0);
-    EXPECT_THAT(german.err, HasSubstr("RIG.CSV: separated by semicolons, decimal commas"));
+    EXPECT_EQ(german.code, 0) << german.err;
 }
 
 TEST_F(MachineFiles, HaveTheUnitsThatTheyState) {
@@ -135,7 +134,6 @@ TEST_F(MachineFiles, HaveTheUnitsThatTheyState) {
     const Finished done = read("time,angle\n[ms],[deg]\n" + body(degrees));
     ASSERT_EQ(done.code, 0) << done.err;
     EXPECT_LT(rms(), 1e-12);
-    EXPECT_THAT(done.err, AllOf(HasSubstr("units in line 2"), HasSubstr("the column \"angle\" is in deg")));
     const Finished counts = read("time,angle\ns,counts\n" + body([](auto& t, auto& a) { return t + "," + a; }));
     EXPECT_EQ(counts.code, 0);
     EXPECT_THAT(counts.err, HasSubstr("data.0.file: the file states \"counts\" for the column \"angle\""));
@@ -156,7 +154,6 @@ TEST_F(MachineFiles, AreRefusedWithThePlaceWhereANamedColumnIsWrong) {
     }
     const Finished gaps = read("time,angle\n0,NA\n0.1,0.2\n,0.3\n0.3,\n");
     EXPECT_EQ(gaps.code, 0) << gaps.err;
-    EXPECT_THAT(gaps.err, HasSubstr("1 row without a time left out"));
 }
 
 // ---- columns in place of lists ------------------------------------------------------------------------

@@ -57,7 +57,7 @@ TEST(Regression, DistinguishesAPictureThatMovedFromAMotionThatMoved) {
     EXPECT_THAT(motion.out, HasSubstr("different   motion"));
 }
 
-// One shows the scene's motion, one a variant of it, one none.
+// One shows the scene's motion, one two variants of it, one none.
 TEST(Regression, FiguresAreGuardedWithTheMotionBehindThem) {
     const Folder folder;
     folder.write("s.json", R"({"time": {"end": 0.3}})");
@@ -71,7 +71,7 @@ TEST(Regression, FiguresAreGuardedWithTheMotionBehindThem) {
     EXPECT_THAT(again.out, HasSubstr("angle   picture identical | motion identical"));
     EXPECT_THAT(again.out, HasSubstr("fall    picture identical | motion identical"));
     EXPECT_THAT(again.out, HasSubstr("sketch  picture identical\n"));
-    EXPECT_THAT(again.err, HasSubstr("1 simulation, 3 pictures"));
+    EXPECT_THAT(again.err, HasSubstr("3 simulations, 3 pictures"));
     // The same pixels as the file that the command makes.
     ASSERT_EQ(shell(folder, "$BEAMCAM figure s.json angle -o a.png --dpi 60 -q").code, 0);
     EXPECT_EQ(shell(folder, "$BEAMCAM diff a.png b/angle/0000.png").code, 0);

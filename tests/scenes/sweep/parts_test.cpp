@@ -79,8 +79,8 @@ TEST(SweepParts, ANetcdfFileThatFindsNoRoomIsAnError) {
     const Folder folder;
     folder.write("s.json", kPartedScene);
     const Finished done = shell(folder,
-                                "$BEAMCAM sweep s.json -q -o r.csv --shard 1/1; ls; ulimit -f 8; "
-                                "$BEAMCAM collect r.1of1.points -o r.nc");
+                                "for i in 1 2; do $BEAMCAM sweep s.json -q -o r.csv --shard $i/2; done; ulimit -f 8; "
+                                "$BEAMCAM collect r.1of2.points r.2of2.points -o r.nc");
     EXPECT_EQ(done.code, 6);
     EXPECT_THAT(done.err, HasSubstr("cannot write r.nc: File too large; the file is larger than this disk"));
     EXPECT_FALSE(std::filesystem::exists(folder / "r.nc"));
