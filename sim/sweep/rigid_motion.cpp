@@ -6,25 +6,23 @@
 #include "sim/base/numerics.hpp"
 #include "sim/contact/chatter.hpp"
 #include "sim/run/advancement.hpp"
-#include "sim/sweep/sampler.hpp"
 
 namespace beamcam::sim {
 
 constexpr double kOpeningDepth = 1e-13;     // [rad] below the surface while the gap opens: rounding
 constexpr double kShortestAdvance = 1e-15;  // [s]
-constexpr double kFarFromAway = 1.5;        // [rad] from the cam's axis: a little less than π/2
+constexpr double kRigidAccuracy = 1e-13;    // [rad] error of a settled motion: some hundred rounding errors
 constexpr long kPlacesPerReport = 16384;    // comparisons with the surface between two calls of `progress`
 
 SampledMotion RigidMotion::follow(const Progress& progress) {
     progress_ = &progress;
-    while (turn_ < span_.to && !motion_.over_the_top) {
+    while (turn_ < span_.to && !sampler_.done()) {
         report();
         in_contact_ ? stay_in_contact() : fly();
     }
-    motion_.end.y = {mirrored_.side * state_.theta, mirrored_.side * state_.rate};
-    motion_.end.y.resize(2 + kLedgerSize);
-    motion_.end.phase.touching = motion_.end.phase.held = in_contact_;
-    return std::move(motion_);
+    SampledMotion motion = sampler_.take();
+    motion.accuracy = kRigidAccuracy;
+    return motion;
 }
 
 void RigidMotion::report() {
@@ -34,30 +32,16 @@ void RigidMotion::report() {
 
 // One Taylor series, or its part up to a touch.
 void RigidMotion::fly() {
-    left_ = true;
     series_.expand(state_);
     const double rest = end() - s_, h = std::min(series_.length(), rest);
     const std::optional<double> touch = first_touch(h);
     const double dt = touch.value_or(h);
-    const bool ends = !touch && h == rest;
-    const double until = ends ? end() : s_ + dt;
-    observe(until, [&](double s) { return series_.at(s - s_); });
-    motion_.over_the_top = leaves(dt);
+    const double until = !touch && h == rest ? end() : s_ + dt;
+    show_until(until);
     state_ = series_.at(dt);
     touched_ = false;
     move_to(until);
     if (touch) impact();
-}
-
-// The beam points away from the cam at an end of the interval, or at a turning point in it.                 (S80)
-bool RigidMotion::leaves(double dt) const {
-    // θ changes by less than |θ̇|t + (|k| + |α|)t²/2, which usually excludes this.
-    const double moves =
-        (std::fabs(state_.rate) + 0.5 * (std::fabs(mirrored_.k) + std::fabs(mirrored_.alpha)) * dt) * dt;
-    if (std::fabs(state_.theta - centre_direction_) + moves < kFarFromAway) return false;
-    return points_away(problem_, 0, dt, [&](double t) {
-        return HubAt{mirrored_.side * series_.theta(t), mirrored_.side * series_.rate(t)};
-    });
 }
 
 SurfaceAngle RigidMotion::surface_at(double s) {
@@ -102,19 +86,16 @@ void RigidMotion::impact() {
         if (pull > 0) return rest_on(c);
         return lift_after_impact();
     }
-    ++motion_.impacts;
+    announce(ContactEvent::touch, c, state_.rate);
     if (sums_up_chatter(c, bounce)) {
-        sample_impact(c, surface_.rate(c) + bounce.rebound / c.lever);
+        announce(ContactEvent::release, c, surface_.rate(c) + bounce.rebound / c.lever);
         return rest_on(c);
     }
     const bool slow = bounce.ends_chatter(pull, last_rebound_, problem_);
     last_rebound_ = bounce.rebound;
     const double kept = slow ? 0 : problem_.contact.restitution, after = surface_.rate(c) - kept * w;
-    if (slow && pull > 0) {
-        sample_impact(c, kNan);
-        return rest_on(c);
-    }
-    sample_impact(c, after);
+    if (slow && pull > 0) return rest_on(c);
+    announce(ContactEvent::release, c, after);
     state_.rate = after;
     if (slow) lift_after_impact();
 }
@@ -130,16 +111,12 @@ bool RigidMotion::sums_up_chatter(const SurfaceAngle& c, const Bounce& bounce) c
 }
 
 void RigidMotion::rest_on(const SurfaceAngle& c) {
-    in_contact_ = true;
     state_ = {c.angle, surface_.rate(c)};
+    resume(true);
 }
 
 // Sustained contact until the cam falls away faster than the beam.
 void RigidMotion::stay_in_contact() {
-    const auto at = [&](double s) {
-        const SurfaceAngle c = surface_.at(s);
-        return RodState{c.angle, surface_.rate(c)};
-    };
     if (surface_.always_pulls()) return lift(s_ + 0.5 * period_);
     double from = end(), to = from;
     for (const CamSurface::Lift& lift : surface_.lifts())
@@ -148,20 +125,21 @@ void RigidMotion::stay_in_contact() {
             from = std::max(lift.from + turn, s_);
             to = lift.to + turn;
         }
-    observe(from, at);
-    state_ = at(from);
+    show_until(from);
+    const SurfaceAngle c = surface_.at(from);
+    state_ = {c.angle, surface_.rate(c)};
     const bool ends = from == end();
     const double stays = to - from;
     move_to(from);
     if (ends) return;
-    end_lasting_sample();
+    announce(ContactEvent::release, c, state_.rate);
     lift(s_ + stays);
 }
 
 // Flight begins on the surface. No touch is possible in the first half of the interval with f < 0.
 void RigidMotion::lift(double until) {
     const double pendulum_time = 1 / std::sqrt(std::fabs(mirrored_.k) + std::fabs(mirrored_.alpha) + 1e-300);
-    in_contact_ = false;
+    resume(false);
     touched_ = true;
     clear_until_ = s_ + std::min(0.5 * (until - s_), 0.5 * pendulum_time);
 }
@@ -184,21 +162,43 @@ void RigidMotion::move_to(double s) {
     }
 }
 
-// Samples strobes and sections after s_ and up to `until`; at(s) is the state.
-template <class At>
-void RigidMotion::observe(double until, At&& at) {
-    if (static_cast<double>(turn_) + until / period_ < static_cast<double>(span_.from)) return;
-    const auto each = [&](double phase, auto&& visit) {
-        for (long k = 0; (static_cast<double>(k) + phase) * period_ <= until; ++k) {
-            const double s = (static_cast<double>(k) + phase) * period_;
-            const long turn = turn_ + k;
-            const bool first = turn == 0 && s == 0 && s_ == 0;  // the initial state
-            if ((s > s_ || first) && turn >= span_.from && turn < span_.to) visit(s);
-        }
-    };
-    if (sampling_.kind == SampleKind::section)
-        each(section_phase_, [&](double s) { motion_.samples.push_back(sample(s, at(s))); });
-    each(kStrobePhase, [&](double s) { strobe(at(s)); });
+void RigidMotion::put(const RodState& state, double* y) const {
+    std::fill_n(y, y_.size(), 0.0);
+    y[0] = mirrored_.side * state.theta;
+    y[1] = mirrored_.side * state.rate;
+}
+
+void RigidMotion::value(double t, double* y) const {
+    const double s = t - time(0);
+    if (!in_contact_) return put(series_.at(s - s_), y);
+    const SurfaceAngle c = surface_.at(s);
+    put({c.angle, surface_.rate(c)}, y);
+}
+
+void RigidMotion::show_until(double s) {
+    t0 = time(s_);
+    t1 = time(s);
+    sampler_.step({this, t0, t1, false});
+}
+
+void RigidMotion::resume(bool in_contact) {
+    in_contact_ = in_contact;
+    Phase phase;
+    phase.touching = phase.held = in_contact;
+    put(state_, y_.data());
+    sampler_.resume(time(s_), y_, phase);
+}
+
+// The beam at the surface with this rate of the hub. v_t: (S27).
+void RigidMotion::announce(ContactEvent event, const SurfaceAngle& c, double rate) {
+    const CamPose pose = cam_pose(mirrored_.cam, s_);
+    const double along = -dot(unit(c.angle), pose.velocity) - mirrored_.cam.speed * mirrored_.cam.radius;
+    ContactState contact;
+    contact.x = c.lever - problem_.hub.radius;
+    contact.gap_rate = c.lever * (rate - surface_.rate(c));
+    contact.slip = mirrored_.side * (along + contact_offset(problem_) * rate);
+    put({c.angle, rate}, y_.data());
+    sampler_.event(event, time(s_), y_, contact);
 }
 
 }  // namespace beamcam::sim

@@ -1,6 +1,6 @@
 // The motion of a rigid beam with frictionless impulsive contact over thousands of cam turns: flight as a Taylor
 // series, impacts by bounds on the closed form of the cam's surface, sustained contact by the sign of the contact
-// force. The impacts agree with those of a Run within its tolerance. MODEL.md (S80)–(S84).
+// force. Its sampler is that of a Run, with whose impacts these agree within its tolerance. MODEL.md (S80)–(S84).
 #pragma once
 
 #include <optional>
@@ -9,11 +9,11 @@
 #include "sim/run/simulate.hpp"
 #include "sim/sweep/cam_surface.hpp"
 #include "sim/sweep/flight_series.hpp"
-#include "sim/sweep/sampling.hpp"
+#include "sim/sweep/sampler.hpp"
 
 namespace beamcam::sim {
 
-class RigidMotion {
+class RigidMotion : private Segment {
   public:
     // Conditions: rigid beam, frictionless impulsive contact, a free hub or one with a constant torque, a contact that
     // stays between the ends of the beam and off the axis, method `auto`, samples at impacts or cam angles.
@@ -38,50 +38,42 @@ class RigidMotion {
     void stay_in_contact();
     SurfaceAngle surface_at(double s);  // caches the last result
     std::optional<double> first_touch(double h);
-    bool leaves(double dt) const;
     void impact();
     bool sums_up_chatter(const SurfaceAngle& c, const Bounce& bounce) const;
     void rest_on(const SurfaceAngle& c);
     void lift(double until);
     void lift_after_impact();
     void move_to(double s);
-    template <class At>
-    void observe(double until, At&& at);
-    void strobe(const RodState& state);
-    MotionSample sample(double s, const RodState& state) const;
-    void sample_impact(const SurfaceAngle& c, double rate_after);  // NaN: sustained contact follows
-    void end_lasting_sample();
-    double slip(const SurfaceAngle& c, double rate) const;
-    double end() const {
-        return static_cast<double>(span_.to - turn_) * period_;
-    }  // of the motion, within this turn [s]
+    double time(double s) const { return static_cast<double>(turn_) * period_ + s; }  // since the start [s]
+    double end() const { return static_cast<double>(span_.to - turn_) * period_; }    // within this turn [s]
+    // The sampler's view of the motion: its state from s_ on, in the present flight or contact, and its events.
+    void value(double t, double* y) const override;
+    void put(const RodState& state, double* y) const;
+    void show_until(double s);
+    void resume(bool in_contact);
+    void announce(ContactEvent event, const SurfaceAngle& c, double rate);
 
     const Problem& problem_;
-    const Sampling& sampling_;
     InitialState start_;
     SampleSpan span_;
     double period_;
     Mirrored mirrored_;
     CamSurface surface_;
     FlightSeries series_;
-    double centre_direction_;  // of the cam's axis as seen from the hub, mirrored [rad]
     double cached_at_ = kNan;
     SurfaceAngle cached_;
 
     long turn_ = 0;  // whole turns since the start
     double s_ = 0;   // time within the turn [s]
     RodState state_;
-    bool in_contact_ = false;    // in sustained contact
-    bool sample_lasts_ = false;  // sustained contact follows the last sample
-    bool touched_ = false;       // the flight starts on the surface
-    double clear_until_ = 0;     // no touch is possible before this time, after a lift
+    bool in_contact_ = false;  // in sustained contact
+    bool touched_ = false;     // the flight starts on the surface
+    double clear_until_ = 0;   // no touch is possible before this time, after a lift
     double last_rebound_ = 0;
-    double section_phase_;  // fraction of a turn: 0 … 1
-    bool left_ = false;     // the beam left the cam since the last strobe
-    long kept_impacts_ = 0;
     const Progress* progress_ = nullptr;
     long places_ = 0;  // that were compared with the surface, and series
-    SampledMotion motion_;
+    Sampler sampler_;
+    std::vector<double> y_;  // of a Run
 };
 
 }  // namespace beamcam::sim

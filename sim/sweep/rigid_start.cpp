@@ -1,4 +1,5 @@
 // The motions that RigidMotion applies to, and their start.
+#include <algorithm>
 #include <cmath>
 
 #include "sim/sweep/rigid_motion.hpp"
@@ -6,7 +7,6 @@
 namespace beamcam::sim {
 
 constexpr double kInsideBeam = 1e-3;  // of the length: least distance of the contact from the beam's ends and the axis
-constexpr double kRigidAccuracy = 1e-13;  // [rad] error of a settled motion: some hundred rounding errors
 
 bool RigidMotion::applies(const Problem& p, const Sampling& sampling) {
     const bool sampled = sampling.kind == SampleKind::impacts || sampling.kind == SampleKind::section;
@@ -48,24 +48,22 @@ InitialState RigidMotion::start_of(const Problem& problem, const InitialState* s
 
 RigidMotion::RigidMotion(const Problem& problem, const Sampling& sampling, const InitialState* start)
     : problem_(problem),
-      sampling_(sampling),
       start_(start_of(problem, start)),
       span_(sample_span(problem, sampling)),
       period_(span_.period),
       mirrored_(mirrored(problem, start_.y[0])),
       surface_(mirrored_.cam, problem.cam->radius + contact_offset(problem), mirrored_.k, mirrored_.alpha),
       series_(mirrored_.k, mirrored_.alpha),
-      centre_direction_(std::atan2(mirrored_.cam.centre.y, mirrored_.cam.centre.x)),
-      section_phase_(section_phase(problem, sampling.level)) {
-    motion_.accuracy = kRigidAccuracy;
-    state_.theta = mirrored_.side * start_.y[0];
-    state_.rate = mirrored_.side * start_.y[1];
+      sampler_(System(problem), sampling),
+      y_(2 + kLedgerSize) {
+    state_ = {mirrored_.side * start_.y[0], mirrored_.side * start_.y[1]};
     const SurfaceAngle c = surface_.at(0);
     if (start_.phase.touching) {
         rest_on(c);
-    } else if (state_.theta < c.angle) {
-        state_.theta = c.angle;
-        touched_ = true;
+    } else {
+        touched_ = state_.theta < c.angle;
+        state_.theta = std::max(state_.theta, c.angle);
+        resume(false);
     }
 }
 
