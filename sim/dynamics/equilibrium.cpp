@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "sim/base/linear_algebra.hpp"
 #include "sim/cam/lever.hpp"
@@ -18,9 +19,8 @@ constexpr double kLoadStep = 5, kMostLoadSteps = 1000;
 constexpr double kRestingLoadStep = 0.5;   // the same on the cam, which a beam bent in one step would leave
 constexpr double kEquilibriumGap = 1e-10;  // of the length: largest gap of a beam that rests on the cam
 constexpr double kSeparatedPull = 1e-6;    // of K: the spring that pulls a separated iterate back to the cam
-// [rad] of the cam: steps of finite differences of fourth and second order, at which truncation and rounding errors
-// are equal.
-constexpr double kFollowingDifference = 5e-3, kLeavingDifference = 1e-5;
+// [rad] of the cam: step of finite differences of fourth order, at which truncation and rounding are equal.
+constexpr double kFollowingDifference = 5e-3;
 
 // Static forces of the model at ξ, without contact. They are valid even if `assemble` finds the inertia not positive.
 void static_force(Model& model, const Eigen::VectorXd& xi, Eigen::VectorXd& f) {
@@ -179,60 +179,35 @@ bool equilibrium_on_cam(System& system, double t, FollowingState& s) {
 
 // The start of a beam that follows the turning cam. Equilibria at neighbouring cam angles give the rates, the rates
 // give the inertia forces, and these correct the equilibria. After two corrections the error is of sixth order in the
-// ratio of the cam's speed to the frequencies of beam and contact.                                            (S40)
-class CamFollowing {
-  public:
-    CamFollowing(System& system, const Eigen::VectorXd& guess)
-        : system_(system), step_(kFollowingDifference / std::fabs(system.problem().cam->speed)) {
-        const Eigen::VectorXd zero = Eigen::VectorXd::Zero(guess.size());
-        states_.assign(kPoints, {guess, zero, zero});
-    }
-    bool find() {
-        if (!solve_equilibria(4)) return false;
-        differentiate(2);
-        if (!solve_equilibria(2)) return false;
-        differentiate(0);
-        return solve_equilibria(0);
-    }
-    FollowingState start() const { return states_[kMiddle]; }
-
-  private:
-    static constexpr int kPoints = 9, kMiddle = 4;
-
-    // Equilibria at the instants −reach…reach.
-    bool solve_equilibria(int reach) {
-        for (int k = -reach; k <= reach; ++k)
-            if (!equilibrium_on_cam(system_, k * step_, states_[static_cast<std::size_t>(kMiddle + k)])) return false;
-        return true;
-    }
-    // Rates and accelerations at these instants, by differences of fourth order.
-    void differentiate(int reach) {
-        std::vector<FollowingState> moving = states_;
-        for (int k = -reach; k <= reach; ++k) {
-            const auto at = [&](int i) -> const Eigen::VectorXd& {
-                return states_[static_cast<std::size_t>(kMiddle + k + i)].xi;
-            };
-            FollowingState& s = moving[static_cast<std::size_t>(kMiddle + k)];
-            s.rate = (8 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12 * step_);
-            s.acceleration = (16 * (at(1) + at(-1)) - (at(2) + at(-2)) - 30 * at(0)) / (12 * step_ * step_);
-        }
-        states_ = std::move(moving);
-    }
-
-    System& system_;
-    double step_;
-    std::vector<FollowingState> states_;
-};
-
-// The start on a cam that falls away faster than the beam can follow: the static equilibrium, with the rates of
-// following the cam.
-FollowingState left_behind(System& system, const Eigen::VectorXd& xi) {
-    const double dt = kLeavingDifference / std::fabs(system.problem().cam->speed);
+// ratio of the cam's speed to the frequencies of beam and contact. On a cam that falls away faster than the beam can
+// follow, the start is the equilibrium without inertia forces, with the rates of following.                   (S40)
+RestingBeam following_beam(System& system, const Eigen::VectorXd& xi) {
+    constexpr int kMiddle = 4;
+    const double dt = kFollowingDifference / std::fabs(system.problem().cam->speed);
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(xi.size());
-    FollowingState later{xi, zero, zero}, earlier = later;
-    if (!equilibrium_on_cam(system, dt, later) || !equilibrium_on_cam(system, -dt, earlier))
-        throw StepFailure("no equilibrium of the beam resting on the turning cam was found");
-    return {xi, (later.xi - earlier.xi) / (2 * dt), zero};
+    std::vector<FollowingState> states(2 * kMiddle + 1, {xi, zero, zero});
+    const FollowingState& start = states[kMiddle];
+    const auto solve = [&](int reach) {  // at the instants −reach…reach
+        for (int k = -reach; k <= reach; ++k)
+            if (!equilibrium_on_cam(system, k * dt, states[static_cast<std::size_t>(kMiddle + k)])) return false;
+        return true;
+    };
+    const auto differentiate = [&](std::size_t reach) {
+        const std::vector<FollowingState> before = states;
+        for (std::size_t k = kMiddle - reach; k <= kMiddle + reach; ++k) {
+            const Eigen::VectorXd near = before[k + 1].xi + before[k - 1].xi, far = before[k + 2].xi + before[k - 2].xi;
+            states[k].rate =
+                (8 * (before[k + 1].xi - before[k - 1].xi) - (before[k + 2].xi - before[k - 2].xi)) / (12 * dt);
+            states[k].acceleration = (16 * near - far - 30 * before[k].xi) / (12 * dt * dt);
+        }
+    };
+    if (!solve(4)) throw StepFailure("no equilibrium of the beam resting on the turning cam was found");
+    differentiate(2);
+    const FollowingState slow{start.xi, start.rate, zero};
+    if (!solve(2)) return {slow, true};
+    differentiate(0);
+    if (!solve(0)) return {slow, true};
+    return {start, false};
 }
 
 // The rigid rod on that side of the cam against which weight and torque press it, with the static penetration.
@@ -275,12 +250,7 @@ RestingBeam resting_beam(const System& given) {
     };
     if (!soften(given, kRestingLoadStep, rest))
         throw StepFailure("no equilibrium of the beam resting on the cam was found");
-    if (system.problem().cam->speed != 0) {
-        CamFollowing following(system, beam.start.xi);
-        beam.left_behind = !following.find();
-        beam.start = beam.left_behind ? left_behind(system, beam.start.xi) : following.start();
-    }
-    return beam;
+    return system.problem().cam->speed == 0 ? beam : following_beam(system, beam.start.xi);
 }
 
 }  // namespace beamcam::sim
