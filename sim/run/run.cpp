@@ -95,8 +95,8 @@ void Run::start() {
     started_ = true;
     integrator_->stop_at(next_kink());
     transitions_.start(initial.continued ? &*initial.continued : nullptr);
-    resume();
     transitions_.announce_start();
+    resume();
 }
 
 const Segment& Run::step() {

@@ -173,6 +173,16 @@ TEST(Start, OnTheCamAtRestTouchesAtOnce) {
     EXPECT_LT(r.energy_residual_max, 1e-7 * r.energy_scale);
 }
 
+TEST(Start, InContactIsATouchEvenOfARunWithoutLength) {
+    Problem p;
+    p.initial.shape = InitialShape::resting;
+    const Result r = run(p, 0);
+    ASSERT_EQ(r.impacts.size(), 1u);
+    EXPECT_EQ(r.impacts[0].t_start, 0);
+    EXPECT_FALSE(r.impacts[0].t_end);
+    EXPECT_EQ(r.collisions.size(), 1u);
+}
+
 TEST(Start, RestingOnAFixedCamStaysThere) {
     for (const ModelKind kind : {ModelKind::rigid, ModelKind::first_order, ModelKind::second_order, ModelKind::exact}) {
         Problem p = fixed_cam(kind);
