@@ -48,20 +48,6 @@ BEAMCAM_INLINE Lanes operator-(Lanes a) {
 }
 
 BEAMCAM_INLINE double sum(const Lanes& a) { return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7])); }
-// Lane by lane; a NaN in `b` is passed over.
-BEAMCAM_INLINE Lanes larger(Lanes a, const Lanes& b) {
-    for (int i = 0; i < Lanes::kParts; ++i) a.part[i] = b.part[i] > a.part[i] ? b.part[i] : a.part[i];
-    return a;
-}
-BEAMCAM_INLINE Lanes smaller(Lanes a, const Lanes& b) {
-    for (int i = 0; i < Lanes::kParts; ++i) a.part[i] = b.part[i] < a.part[i] ? b.part[i] : a.part[i];
-    return a;
-}
-BEAMCAM_INLINE Lanes magnitude(Lanes a) {
-    using Bits = long long __attribute__((vector_size(16)));
-    for (Lanes::Part& part : a.part) part = (Lanes::Part)((Bits)part & 0x7fff'ffff'ffff'ffff);
-    return a;
-}
 // The largest magnitude; NaN is passed over.
 BEAMCAM_INLINE double largest(const Lanes& a) {
     Lanes::Part m{};

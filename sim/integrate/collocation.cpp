@@ -20,7 +20,9 @@ Collocation::Collocation() {
     for (int k = 0; k < kNodes; ++k) {
         double p[kNodes];
         sim::legendre(2 * c[k] - 1, kNodes, p);
-        for (int j = 0; j < kNodes; ++j) legendre[static_cast<std::size_t>(j)][k] = (2 * j + 1) * b[k] * p[j];
+        for (int j = 0; j < kNodes; ++j)
+            legendre[static_cast<std::size_t>(j)][k] = legendre_of_node_[static_cast<std::size_t>(k)][j] =
+                (2 * j + 1) * b[k] * p[j];
     }
     for (std::size_t i = 0; i < point.size(); ++i) {
         double p[kNodes][kNodes];
@@ -60,12 +62,10 @@ Lanes Collocation::weights_to(double s) const {
     return w;
 }
 
-void combine(const std::array<Lanes, kNodes>& factors, const Lanes* x, Lanes* out) {
-    for (std::size_t j = 0; j < kNodes; ++j) {
-        Lanes total{};
-        for (int l = 0; l < kNodes; ++l) total += factors[j][l] * x[l];
-        out[j] = total;
-    }
+Lanes Collocation::legendre_coefficients(const Lanes& nodal) const {
+    Lanes out{};
+    for (int l = 0; l < kNodes; ++l) out += nodal[l] * legendre_of_node_[static_cast<std::size_t>(l)];
+    return out;
 }
 
 Lanes at_nodes(double start, double h, const Lanes& rate) {

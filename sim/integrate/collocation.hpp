@@ -22,6 +22,7 @@ struct Collocation {
     std::array<std::array<Lanes, kNodes>, kNodes + 1> derive;
     // legendre[j][l]: nodal values to the coefficient of P_j(2s − 1).
     std::array<Lanes, kNodes> legendre;
+    Lanes legendre_coefficients(const Lanes& nodal) const;
     std::array<Lanes, kNodes> slope;  // [l][k]: ℓ_l′(c_k)
     // monomial[j][l]: nodal values to the coefficient of (2s − 1)ʲ.
     std::array<Lanes, kNodes> monomial;
@@ -30,10 +31,8 @@ struct Collocation {
 
   private:
     Collocation();
+    std::array<Lanes, kNodes> legendre_of_node_;  // `legendre`, transposed
 };
-
-// out[j] = Σ_l factor[j][l] x[l]: for each lane of x a combination of its nodal values.
-void combine(const std::array<Lanes, kNodes>& factors, const Lanes* x, Lanes* out);
 
 // A quantity that is `start` at the start of a step of length h, by its rate at the nodes.
 Lanes at_nodes(double start, double h, const Lanes& rate);

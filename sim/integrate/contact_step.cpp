@@ -70,8 +70,7 @@ double ContactStep::solve(const StepTable& nodal) {
     const double h = nodal.h;
     if (held_ && projected_.h != h) projected_.build_projected(form_.oscillators, nodal);
     const StepTable& table = held_ ? projected_ : nodal;
-    s.begin(h);
-    step_.place_hub(h);
+    step_.begin_attempt(h);
     if (!linearize(table)) return kNoSolution;
     // The feet of the last attempt are the first guess, unless they left the expansion.
     for (int k = 0; k < kNodes; ++k)
@@ -225,20 +224,20 @@ bool ContactStep::linearize(const StepTable& table) {
         return nodal_compliance(table, form_.mass, form_.prescribed ? 0 : hub / form_.J, a, b);
     };
     compliance_ = compliance(start.hub * start.hub, row, row);
-    double mobility2 = 0, kick2 = 0;
+    double mobility2 = 0, rate2 = 0;
     for (std::size_t i = 0; i < step_.n; ++i) {
         const double jn = row[i], reach = std::min(h, 1 / form_.oscillators[i].omega);
         const double moved = jn / form_.mass * reach, moved_t = row_t_[i] / form_.mass * reach;
         mobility2 += moved * moved;
         if (friction_.bristle) mobility2 += moved_t * moved_t;
-        kick2 += jn * jn / form_.mass / form_.mass;
+        rate2 += jn * jn / form_.mass / form_.mass;
     }
     Lanes turned{};  // by a unit force from the start on
     for (const Lanes& rate : compliance_.rate) turned += rate;
     mobility_contact_ = largest(turned);
     mobility_modes_ = std::sqrt(mobility2);
-    kick = std::sqrt(kick2);
-    yields_ = kick2 * form_.mass + (form_.prescribed ? 0 : start.hub * start.hub / form_.J);
+    mode_rate_per_impulse = std::sqrt(rate2);
+    gap_rate_per_impulse_ = rate2 * form_.mass + (form_.prescribed ? 0 : start.hub * start.hub / form_.J);
     const double arm = friction_.bristle ? std::hypot(start.hub, start.hub_t) : std::fabs(start.hub);
     mobility_hub_ = form_.prescribed ? 0 : arm * h / form_.J;
     if (!couples_) return true;
@@ -261,9 +260,9 @@ double ContactStep::error(double h) {
         std::max({smooth, force * mobility_modes_ / step_.scale_modes, force * mobility_hub_ / step_.scale_theta_dot});
     if (!held_) return of_force;
     // The impulse by which `hold_end` will put the end on the constraint.
-    const double impulse = std::fabs(off(end) - share_left(h) * off(start)) / yields_;
+    const double impulse = std::fabs(off(end) - share_left(h) * off(start)) / gap_rate_per_impulse_;
     const double hub = form_.prescribed ? 0 : impulse * std::fabs(start.hub) / form_.J;
-    return std::max({of_force, impulse * kick / step_.scale_modes, hub / step_.scale_theta_dot});
+    return std::max({of_force, impulse * mode_rate_per_impulse / step_.scale_modes, hub / step_.scale_theta_dot});
 }
 
 bool ContactStep::deep() const {

@@ -34,9 +34,9 @@ class ContactStep {
 
     ContactKinematics<double> start, end;
     ContactLoad load;
-    std::vector<double> row;  // ∂(n·r)/∂q of the modes at the start
-    double approach = 1;      // δ̇₋ [m/s]
-    double kick = 0;          // change of the modes' rates per impulse
+    std::vector<double> row;           // ∂(n·r)/∂q of the modes at the start
+    double approach = 1;               // δ̇₋ [m/s]
+    double mode_rate_per_impulse = 0;  // of all modes, by an impulse along n [1/kg]
 
   private:
     // ġ + κg at an instant, and the share of it that is left some time later (S45).
@@ -73,7 +73,7 @@ class ContactStep {
     double force_rounding_ = 0;  // of the force by rounding of the penetration and its rate [N]
     double decays_ = 0;          // decay of the contact's own damping within the step [–]
     double mobility_modes_ = 0, mobility_hub_ = 0, mobility_contact_ = 0;
-    double yields_ = 0;  // of the gap rate per impulse [1/kg]
+    double gap_rate_per_impulse_ = 0;  // [1/kg]
     Frame<Lanes> frame_;
     Lanes cam_angle_{};                            // ψ at the nodes
     Lanes contact_theta_{}, contact_theta_dot_{};  // where the contact was evaluated last

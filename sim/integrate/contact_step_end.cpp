@@ -158,7 +158,7 @@ double ContactStepEnd::solve_to(double end, Ending ending) {
     double h = end, error = 0, closest = kNoSolution;
     for (int i = 0; i < kMostCuts; ++i) {
         if (!(h > kLeastLength)) return kNoSolution;
-        table_.build(step_.form->oscillators, step_.form->groups, h);
+        table_.build(step_.form->oscillators, h);
         error = contact_.solve(table_);
         if (!(error <= 1)) return error;
         const double dt = to_event(h, ending);
@@ -172,7 +172,8 @@ double ContactStepEnd::solve_to(double end, Ending ending) {
         }
         // So near that the force in between has no effect: the state is carried over.
         if (ending == Ending::release && std::fabs(dt) < kCarried * h &&
-            law_.at(contact_.end.radius).elastic(std::fabs(contact_.end.gap)) * std::fabs(dt) * contact_.kick <
+            law_.at(contact_.end.radius).elastic(std::fabs(contact_.end.gap)) * std::fabs(dt) *
+                    contact_.mode_rate_per_impulse <
                 kCarriedKick * step_.scale_modes) {
             carry = dt;
             return error;

@@ -26,18 +26,11 @@ constexpr int kMostSweeps = 12;  // in flight: at a contraction of a half a step
 constexpr double kFlightRounding = 1e-12;
 // [–] of the period of the fastest mode over 2π: where collocation of a constraint needs shorter steps, rounding rules.
 constexpr double kShortestHeld = 1e-5;
-// Above these damping ratios, in flight and in contact, explicit steps are limited by stability; BDF is used. In flight
-// the other method takes only some steps, which BDF begins at a low order.
-constexpr double kStiffFlight = 20, kStiffContact = 1;
+constexpr double kStiff = 1;  // damping ratio above which stability limits explicit steps: BDF is used
 // [rad] of the fastest vibration in a step of modes that are not the coordinates: where their coupling asks for shorter
-// ones, in flight by its error or in contact as nothing settles, Runge and Kutta's method is as good.
+// ones in contact, as nothing settles, Runge and Kutta's method is as good.
 constexpr double kLeastTurns = 0.5;
 constexpr long kFirstRetry = 32;  // steps of the other method before the next try, twice as many each time
-// Friction that turns over within a small slip is stiff where the beam nearly sticks. A contact that has taken so many
-// steps, shorter than this share of the way to its deepest point or of the fastest mode's 1/ω, is handed over to BDF.
-constexpr long kMostCrawls = 2000;
-constexpr double kCrawl = 1e-3;
-
 // Another method, made when it is first needed, and what it has counted so far.
 struct Fallback {
     Method method;
@@ -47,8 +40,7 @@ struct Fallback {
 
 // Solves for the nodal forcing. Returns the error in units of the tolerance, kNoSolution if the iteration fails.
 double solve_flight(NodalStep& step, const StepTable& table) {
-    step.segment.begin(table.h);
-    step.place_hub(table.h);
+    step.begin_attempt(table.h);
     step.propagate_unforced(table);
     FixedPoint iteration(kFlightRounding, kStalled, 0);
     auto status = FixedPoint::Status::going;
@@ -70,11 +62,10 @@ class Exponential final : public Integrator {
     Exponential(System& system, double rtol, double atol)
         : system_(system),
           step_(system, ModalForm::of(system), rtol, atol, counters.rhs),
-          tables_(step_.form->oscillators, step_.form->groups),
+          tables_(step_.form->oscillators),
           rtol_(rtol),
           atol_(atol),
-          damping_(step_.n > 0 ? system.damping_ratio() : 0),
-          creeps_(!system.friction().none() && !system.has_bristle()) {
+          damping_(step_.n > 0 ? system.damping_ratio() : 0) {
         if (!system.has_cam()) return;
         contact_.emplace(step_);
         contact_end_.emplace(step_, *contact_);
@@ -100,9 +91,13 @@ class Exponential final : public Integrator {
     }
 
     const Segment& step() override {
+        if (!touching_) {
+            flight();
+            return segment();
+        }
         if (!falling_back_) {
-            if (own_step()) return segment();
-            if (touching_ && retry_after_ == kFirstRetry) ++counters.handed_over;
+            if (touch_step()) return segment();
+            if (retry_after_ == kFirstRetry) ++counters.handed_over;
             hand_over(t_, segment().end.data(), first_step_);
             retry_later();
         } else if (steps_to_retry_ == 0) {
@@ -136,26 +131,19 @@ class Exponential final : public Integrator {
   private:
     ExponentialSegment& segment() { return step_.segment; }
 
-    // False when this method does not cover the motion from here.
-    bool own_step() { return touching_ ? touch_step() : flight(); }
-
-    // Another try of this method from where the other one has arrived, which otherwise goes on from there.
+    // Another try of this method in contact from where the other one has arrived, which otherwise goes on from there.
     bool retry() {
         last_->value(last_->t1, segment().end.data());
         t_ = last_->t1;
-        falling_back_ = (touching_ && !begin_touch(t_, segment().end.data())) || !own_step();
+        falling_back_ = !begin_touch(t_, segment().end.data()) || !touch_step();
         return !falling_back_;
     }
-    // The other method takes some steps before the next try. What crawls would crawl again.
-    void retry_later() {
-        flight_level_ = kFirstFlightLevel;
-        steps_to_retry_ = crawls() ? kNever : std::exchange(retry_after_, 2 * retry_after_);
-    }
-    bool crawls() const { return touching_ && crawls_ > kMostCrawls; }
+    // The other method takes some steps before the next try.
+    void retry_later() { steps_to_retry_ = std::exchange(retry_after_, 2 * retry_after_); }
 
     // The explicit or the implicit method.
     Fallback& other_method() {
-        const bool stiff = crawls() || damping_ > (touching_ ? kStiffContact : kStiffFlight);
+        const bool stiff = damping_ > kStiff;
         Fallback& other = stiff ? implicit_ : explicit_;
         if (!other.integrator)
             other.integrator = stiff ? make_sundials(other.method, system_, kShareOfBdf * rtol_, kShareOfBdf * atol_)
@@ -204,13 +192,12 @@ class Exponential final : public Integrator {
         return !form.by_arrays() && h * form.oscillators.back().omega < kLeastTurns;
     }
 
-    // One step; false when it would be too short for this method (the state is then that of the start).
-    bool flight() {
+    // Throws StepFailure where no step, however short, keeps to the tolerance.
+    void flight() {
         ExponentialSegment& s = segment();
         s.touching = false;
         step_.begin(t_);
         for (bool rejected = false;; rejected = true) {
-            if (rejected && too_short(step_length(flight_level_))) return false;
             bool last = false;
             const StepTable& table = flight_table(last);
             const double error = solve_flight(step_, table);
@@ -229,23 +216,17 @@ class Exponential final : public Integrator {
         ++counters.steps;
         step_.finish(nullptr);
         t_ = s.t1;
-        return true;
     }
 
     bool begin_touch(double t, const double* y) {
         const ContactState c = system_.contact(t, y);
         if (c.at_end) return false;
         contact_->begin_touch(c);
-        crawls_ = 0;
-        if (creeps_)
-            crawl_ = kCrawl * (system_.phase().held ? 1 / system_.highest_frequency()
-                                                    : system_.touch_time(t, y, c, contact_->approach));
         return true;
     }
 
     // One step; false when this method cannot take the contact (the state is then that of the start).
     bool touch_step() {
-        if (crawls()) return false;
         step_.begin(t_);
         contact_->begin();
         for (bool rejected = false;; rejected = true) {
@@ -290,7 +271,6 @@ class Exponential final : public Integrator {
         s.touching = true;
         s.t1 = s.t0 + s.h;
         first_step_ = s.h;
-        if (s.h < crawl_) ++crawls_;
         step_.finish(&contact_->load);
         contact_->hold_end();
         s.samples.ending = ending;
@@ -331,7 +311,6 @@ class Exponential final : public Integrator {
     std::optional<ContactStepEnd> contact_end_;
     const double rtol_, atol_;
     const double damping_;  // the largest damping ratio
-    const bool creeps_;     // with friction that turns over within a small slip
     Fallback explicit_{Method::rk8}, implicit_{Method::cvode_bdf};
     Fallback* fallback_ = nullptr;  // the one in use, or used last
     bool falling_back_ = true, touching_ = false;
@@ -343,8 +322,6 @@ class Exponential final : public Integrator {
     static constexpr long kNever = -1;
     long steps_to_retry_ = kNever;  // of the fallback, before this method is tried again
     long retry_after_ = 0;
-    long crawls_ = 0;   // steps of this touch that were shorter than `crawl_`
-    double crawl_ = 0;  // [s]
     std::vector<double> scratch_;
 };
 
@@ -356,7 +333,7 @@ std::unique_ptr<Integrator> make_exponential(System& system, double rtol, double
 
 Method used_method(Method wanted, System& system) {
     if (wanted != Method::automatic || ModalForm::exists(system)) return wanted;
-    return system.damping_ratio() > kStiffContact ? Method::cvode_bdf : Method::rk8;
+    return system.damping_ratio() > kStiff ? Method::cvode_bdf : Method::rk8;
 }
 
 }  // namespace beamcam::sim

@@ -44,33 +44,19 @@ struct VibrationBounds {
     }
 };
 
-// Bounds of |f|, √(q² + (q̇/ω)²) and |q̇| of the modes of a group. |P_j| <= 1 and |P_j′| <= j(j + 1)/h on the step, so
+// Bounds of |f|, √(q² + (q̇/ω)²) and |q̇| of a mode. |P_j| <= 1 and |P_j′| <= j(j + 1)/h on the step, so
 // that sums over the Legendre coefficients of the forcing bound it and its rate. Without forcing the amplitude of the
 // vibration is constant, or falls by damping. By forcing it changes in a time τ by at most τ|f|/ω, and by at most twice
 // the static deflection |f|/ω² and what that changes meanwhile.                                               (S53)
-void ExponentialSegment::find_largest(std::size_t g) const {
-    transpose();
-    const OscillatorLanes& group = form_->groups[g];
-    Lanes squares{}, legendre[kNodes], force{}, force_rate{};
-    for (std::size_t k = 0; k < kPoints; ++k) {
-        const Lanes &x = lanes_q_[g * kPoints + k], &dx = lanes_v_[g * kPoints + k];
-        squares = larger(squares, x * x + dx * dx / group.square);
-    }
-    combine(Collocation::get().legendre, lanes_f_.data() + g * kNodes, legendre);
-    for (int j = 0; j < kNodes; ++j) {
-        const Lanes c = magnitude(legendre[j]);
-        force += c;
-        force_rate += c * (j * (j + 1) / h);
-    }
-    for (std::size_t i = g * kNodes; i < std::min(n_, (g + 1) * kNodes); ++i) {
-        const int lane = static_cast<int>(i % kNodes);
-        const double w = group.omega[lane], time = (group.gamma[lane] > 0 ? 2 : 1) * kFarthestFromNode * h;
-        Largest& of = largest_[i];
-        of.force = force[lane];
-        of.amplitude = std::sqrt(squares[lane]) +
-                       std::min(time * of.force / w, 2 * (of.force + time * force_rate[lane]) / (w * w));
-        of.rate = largest_rate(i, of.amplitude, of.force);
-    }
+ExponentialSegment::Largest ExponentialSegment::largest_of(std::size_t i) const {
+    const Oscillator& o = form_->oscillators[i];
+    const double w2 = o.omega * o.omega, time = (o.gamma > 0 ? 2 : 1) * kFarthestFromNode * h;
+    const LegendreRange forcing = legendre_range(f[i]);
+    const double force = std::fabs(forcing.mean) + forcing.spread;
+    const double square = std::max(q0[i] * q0[i] + v0[i] * v0[i] / w2, largest(q[i] * q[i] + v[i] * v[i] * (1 / w2)));
+    const double amplitude =
+        std::sqrt(square) + std::min(time * force / o.omega, 2 * (force + time * forcing.slope / h) / w2);
+    return {force, amplitude, largest_rate(i, amplitude, force)};
 }
 
 // Bound of |q̇| where √(q² + (q̇/ω)²) <= amplitude: from a node on, with s <= 1/(fast − slow) and |ṡ| <= 1, decays move
@@ -83,15 +69,11 @@ double ExponentialSegment::largest_rate(std::size_t i, double amplitude, double 
     return std::min(vibrating, at_nodes + (o.omega * vibrating + 2 * force) / decays_of(o).apart());
 }
 
-const MotionBounds* ExponentialSegment::bounds() const {
-    if (bounds_known_) return &bounds_;
-    bounds_known_ = true;
-    MotionBounds& b = bounds_;
-    b = {};
+std::optional<MotionBounds> ExponentialSegment::bounds() const {
+    MotionBounds b;
     VibrationBounds sum;
-    for (std::size_t g = 0; g < form_->groups.size(); ++g) find_largest(g);
     for (std::size_t i = 0; i < n_; ++i) {
-        const auto& [force, amplitude, speed] = largest_[i];
+        const auto [force, amplitude, speed] = largest_of(i);
         const Oscillator& o = form_->oscillators[i];
         sum.add(*form_, i, {amplitude, speed, o.omega * o.omega * amplitude + force + 2 * o.gamma * speed});
     }
@@ -101,7 +83,7 @@ const MotionBounds* ExponentialSegment::bounds() const {
     b.theta_dot = std::max(std::fabs(low), std::fabs(high));
     b.theta_ddot = form_->prescribed ? turning.slope / h : hub_acceleration(sum, b.theta_dot);
     bound_points(sum, b);
-    return &b;
+    return b;
 }
 
 // Largest relative distance of Θ̇ = p/(J + qᵀBq) from the polynomial through its nodal values, p being one: by all that
@@ -128,10 +110,6 @@ void ExponentialSegment::bound_points(const VibrationBounds& sum, MotionBounds& 
     const double axial = sum.stretch.value * sum.stretch.rate + a * sum.turn * sum.turn_rate;
     const double axial_acceleration = sum.stretch.rate * sum.stretch.rate + sum.stretch.value * sum.stretch.second +
                                       a * (sum.turn_rate * sum.turn_rate + sum.turn * sum.hub_second);
-    // The angle of natural modes is another one.
-    b.deflection = form_->by_arrays()
-                       ? sum.deflection.value + 0.5 * (sum.stretch.value * sum.stretch.value + a * sum.turn * sum.turn)
-                       : std::numeric_limits<double>::infinity();
     b.curvature = sum.curvature * (1 + sum.slope);
     b.deflection_speed = sum.deflection.rate + axial + b.theta_dot * beyond;
     b.deflection_acceleration =

@@ -20,27 +20,14 @@ class ExponentialSegment final : public Segment {
   public:
     ExponentialSegment(std::shared_ptr<const ModalForm> modal_form, const DriveLaw& drive_law, int state_size);
     void value(double t, double* y) const override;
-    void value_without_vibration_work(double t, double* y) const override;
-    double coordinate(double t, std::size_t index, double* y) const override;
-    void coordinates(double t, double* y) const override;
-    const MotionBounds* bounds() const override;
+    std::optional<MotionBounds> bounds() const override;
     // The same as `value` by the dense output, also at t1, of which `end` may be another value.
-    void value_inside(double t, double* y) const { evaluate(t, true, y); }
+    void value_inside(double t, double* y) const;
     // The coordinates and their rates alone.
     void motion_inside(double t, double* y) const;
     const TouchSamples* touch() const override { return touching ? &samples : nullptr; }
-    // A step of this length; its numbers will change.
-    void begin(double length) {
-        h = length;
-        bristle_rate = Lanes{};
-        changed();
-    }
-    // To be called whenever the numbers change.
-    void changed() {
-        expanded_ = -1;
-        transposed_ = hub_known_ = false;
-        bounds_known_ = vibration_works_known_ = false;
-    }
+    // The nodal values of Θ̇ and ṗ are those of the step: takes their integrals.
+    void integrate_hub();
 
     double h = 0;                // of the collocation; t1 may lie before t0 + h
     double theta0 = 0, p0 = 0;   // Θ and ∂T/∂Θ̇ at t0
@@ -57,41 +44,27 @@ class ExponentialSegment final : public Segment {
     double boundary0 = 0;     // `drive_boundary` at t0
     std::vector<double> end;  // y at t1
 
-    // Fills the ledger in y, all but the work of vibration. `weights`: of the integral to the instant of y.
-    void set_ledger(const Lanes& weights, double* y) const;
-    // Adds that at t, from the rest of y.
-    void add_vibration_work(double t, double s, double* y) const;
+    // After the nodal forcing is that of the step: prepares the work of the vibration that the nodes do not resolve.
+    void prepare_vibration_work();
+    // The ledger in y at the share s of the step, from the coordinates and rates of the modes in y.
+    void put_ledger(double t, double s, double* y) const;
     // The part of the drive's work that has a closed form, at t.
     double drive_boundary(double t, const double* y) const;
     bool has_bristle() const { return controlled_ > 2 * (n_ + 1); }
     // The part of q̇ of a mode that the nodes resolve: all, one of two decays, or none.
     Lanes resolved_rate(std::size_t mode) const;
-    // Θ̇ for given coordinates.
-    double theta_dot_at(double p, const double* coordinates) const;
+    // J + qᵀBq for these q; J alone where the modes are not the coordinates.
+    double inertia(const double* q) const;
 
   private:
-    static constexpr std::size_t kPoints = kNodes + 1;  // the start of the step and its nodes
-    struct Hub {
-        StepPowers<kNodes + 1> turn, momentum;  // integrals of Θ̇ and ṗ
-    };
-    const Hub& hub() const;
-    double frame_angle(double t) const;  // t != t1
-    void transpose() const;
-    int last_point(double t, double s) const;
-    void expand(int point) const;
-    void evaluate(double t, bool vibration_work, double* y) const;
-    void oscillate(double t, double* y) const;
-    void evolve(std::size_t group, double t, double s, Lanes& x, Lanes& rate) const;
-    void evolve_all(double t, double s, double* y) const;
+    std::size_t last_point(double t, double s) const;
+    void evaluate(double t, double* y) const;
+    void evolve(double t, double s, double* y) const;
     double structural_loss(std::size_t mode, double s, const double* y) const;
-    struct VibrationWorks {  // by mode; none of those that the nodes resolve
-        std::vector<std::optional<VibrationWork>> forcing, torque;
-    };
-    const VibrationWorks& vibration_works() const;
     struct Largest {  // within the step, of a mode
         double force, amplitude, rate;
     };
-    void find_largest(std::size_t group) const;
+    Largest largest_of(std::size_t mode) const;
     double largest_rate(std::size_t mode, double amplitude, double force) const;
     double missed_turning(const VibrationBounds& sum) const;
     double hub_acceleration(const VibrationBounds& sum, double fastest) const;
@@ -101,18 +74,9 @@ class ExponentialSegment final : public Segment {
     std::shared_ptr<const ModalForm> form_;
     const DriveLaw drive_;
     std::size_t n_, controlled_;
-    mutable bool bounds_known_ = false;
-    mutable MotionBounds bounds_;
-    mutable std::vector<Largest> largest_;  // valid with `bounds_`
-    mutable bool vibration_works_known_ = false;
-    mutable VibrationWorks vibration_works_;
-    mutable bool hub_known_ = false;
-    mutable Hub hub_;  // valid with `hub_known_`
-    mutable int expanded_ = -1;
-    // In lanes over eight modes, by group: q, q̇ and f at the nodes (`transposed_`) and q, q̇ at the start; derivatives
-    // of f at the point `expanded_`.
-    mutable bool transposed_ = false;
-    mutable std::vector<Lanes> lanes_q_, lanes_v_, lanes_f_, taylor_;
+    StepPowers<kNodes + 1> turn_, momentum_;  // integrals of Θ̇ and ṗ
+    // ∫fq̇ and ∫τq̇ of each mode that the nodes do not resolve.
+    std::vector<std::optional<VibrationWork>> forcing_work_, torque_work_;
 };
 
 }  // namespace beamcam::sim

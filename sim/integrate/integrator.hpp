@@ -5,6 +5,7 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "sim/base/ode.hpp"
 #include "sim/problem/problem.hpp"
@@ -19,7 +20,6 @@ class System;
 // Bounds of magnitudes within a step that may span many periods of vibration.
 struct MotionBounds {
     double theta_dot = 0, theta_ddot = 0;  // Θ̇ [rad/s], Θ̈ [rad/s²]
-    double deflection = 0;                 // of any point from the straight beam at the angle Θ [m]; may be infinite
     double deflection_speed = 0;           // ∂v/∂t anywhere on the beam [m/s]
     double deflection_acceleration = 0;    // [m/s²]
     double slope_speed = 0;                // ∂²v/∂x∂t [1/s]
@@ -40,19 +40,9 @@ class Segment {
     virtual ~Segment() = default;
     // All components at t in [t0, t1].
     virtual void value(double t, double* y) const = 0;
-    // The same bits of all but the structural loss and the work of the drive, which are undefined: where vibration is
-    // damped, they cost the most.
-    virtual void value_without_vibration_work(double t, double* y) const { value(t, y); }
-    // One of the first `coordinates` of them, `y` for scratch: the same bits.
-    virtual double coordinate(double t, std::size_t index, double* y) const {
-        value_without_vibration_work(t, y);
-        return y[index];
-    }
-    // All of the coordinates, the first components, and the rates of the beam's: the same bits. Others are undefined.
-    virtual void coordinates(double t, double* y) const { value_without_vibration_work(t, y); }
-    // Null for steps in which each component is a polynomial of degree `kDegree` at most.
+    // Nothing for steps in which each component is a polynomial of degree `kDegree` at most.
     static constexpr int kDegree = 12;
-    virtual const MotionBounds* bounds() const { return nullptr; }
+    virtual std::optional<MotionBounds> bounds() const { return std::nullopt; }
     // Null but for steps that solve for the contact force at nodes. No event of the forces lies inside such a step.
     virtual const TouchSamples* touch() const { return nullptr; }
     double t0 = 0, t1 = 0;

@@ -65,7 +65,6 @@ std::shared_ptr<const ModalForm> ModalForm::by_arrays_of(System& system) {
         form->beta.push_back(model->shapes().beta(i));
         form->shape.push_back(model->shapes().bound(i));
     }
-    form->groups = pack_oscillators(form->oscillators);
     if (n == 0) return form;
     if (form->shortening) {
         std::vector<double> h(static_cast<std::size_t>(n * n));
@@ -74,11 +73,6 @@ std::shared_ptr<const ModalForm> ModalForm::by_arrays_of(System& system) {
             form->slope_norm.push_back(std::sqrt(h[static_cast<std::size_t>(i) * static_cast<std::size_t>(n + 1)]));
     }
     copy_rows(model->inertia_matrix(), 1, form->inertia);
-    form->inertia_rows.resize(static_cast<std::size_t>((n + kNodes - 1) / kNodes * n));
-    for (int i = 0; i < n; ++i)
-        for (int j = 0; j < n; ++j)
-            form->inertia_rows[static_cast<std::size_t>(i / kNodes * n + j)][i % kNodes] =
-                form->inertia[static_cast<std::size_t>(i * n + j)];
     form->inertia_root = bounding_vector(model->inertia_matrix(), m.M.diagonal() + m.D.diagonal().cwiseAbs());
     if (model->kind() == ModelKind::first_order) copy_rows(m.G, 1 / form->mass, form->fall);
     return form;
@@ -114,7 +108,6 @@ std::shared_ptr<const ModalForm> ModalForm::of_natural_modes(System& system) {
         BEAMCAM_ASSERT(modes.omega_squared[i] > 0);
         form->oscillators.push_back({std::sqrt(modes.omega_squared[i]), 0.5 * modes.damping[i]});
     }
-    form->groups = pack_oscillators(form->oscillators);
     form->shape = modes.shape;
     form->beta = modes.beta;
     form->slope_norm = modes.slope_norm;

@@ -35,11 +35,9 @@ struct ModalForm {
     bool prescribed = false, shortening = false, damped = false;
     double J = 0, S = 0, mass = 1, gravity = 0, radius = 0, length = 1;
     std::vector<Oscillator> oscillators;
-    std::vector<OscillatorLanes> groups;  // the same, eight by eight
     // Row-major n × n, empty where the modes are not the coordinates: B of J + qᵀBq [kg], and G/m, empty for models
     // without it. f_i = Θ̇² (Bq)_i/m + g sin Θ (Gq)_i/m + …
     std::vector<double> inertia, fall;
-    std::vector<Lanes> inertia_rows;   // the same, eight rows side by side: of each eight, column by column
     std::vector<double> weight;        // W/m
     std::vector<double> U;             // [kg m], zero for a free hub
     std::vector<double> h;             // θ = Θ + h·q

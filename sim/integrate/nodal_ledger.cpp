@@ -28,9 +28,8 @@ void NodalStep::finish_ledger(const ContactLoad* load) {
         s.rate[kImpulseN] = load->force;
         s.rate[kImpulseT] = load->friction;
     }
-    const double share = (s.t1 - s.t0) / s.h;
-    s.set_ledger(Collocation::get().weights_to(share), s.end.data());
-    s.add_vibration_work(s.t1, share, s.end.data());
+    s.prepare_vibration_work();
+    s.put_ledger(s.t1, (s.t1 - s.t0) / s.h, s.end.data());
 }
 
 // Power of the drive at the nodes, without the part that `drive_boundary` has in closed form       (S55)

@@ -40,8 +40,7 @@ void NodalStep::begin(double t) {
     s.bristle0 = system.bristle(s.end.data());
     s.theta0 = y[0];
     theta_dot0 = y[1 + n];
-    // Θ̇ = p/(J + qᵀBq) inverted.
-    s.p0 = form->prescribed ? 0 : theta_dot0 / s.theta_dot_at(1, y + 1);
+    s.p0 = form->prescribed ? 0 : theta_dot0 * s.inertia(y + 1);
     set_scales(y, y);
 }
 
@@ -67,7 +66,8 @@ void NodalStep::propagate_unforced(const StepTable& table) {
 }
 
 void NodalStep::arrive(const StepTable& table) {
-    const ExponentialSegment& s = segment;
+    ExponentialSegment& s = segment;
+    s.integrate_hub();
     const Collocation& gauss = Collocation::get();
     const double h = table.h;
     for (std::size_t i = 0; i < n; ++i) {
@@ -82,13 +82,15 @@ void NodalStep::arrive(const StepTable& table) {
         next[1 + n] = hub.rate;
     } else {
         next[0] = s.theta0 + h * sum(gauss.b * s.theta_dot);
-        next[1 + n] = s.theta_dot_at(s.p0 + h * sum(gauss.b * s.p_dot), next.data() + 1);
+        next[1 + n] = (s.p0 + h * sum(gauss.b * s.p_dot)) / s.inertia(next.data() + 1);
     }
 }
 
-void NodalStep::place_hub(double h) {
+void NodalStep::begin_attempt(double h) {
     const Collocation& gauss = Collocation::get();
     ExponentialSegment& s = segment;
+    s.h = h;
+    s.bristle_rate = Lanes{};
     time = s.t0 + h * gauss.c;
     if (form->prescribed) {
         for (int k = 0; k < kNodes; ++k) {

@@ -31,8 +31,8 @@ struct NodalStep {
 
     // The start of a step, from the end of the last.
     void begin(double t);
-    // The hub at the nodes: as prescribed, or guessed as a rigid pendulum.
-    void place_hub(double h);
+    // An attempt at a step of length h: the hub at the nodes is as prescribed, or guessed as a rigid pendulum.
+    void begin_attempt(double h);
     // The free motion of q and q̇ at the nodes.
     void propagate_free(const StepTable& table);
     // Propagates also the part of the forcing that does not depend on q and q̇.

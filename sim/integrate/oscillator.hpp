@@ -40,17 +40,17 @@ Decays decays_of(const Oscillator& oscillator);  // of one that does
 inline constexpr int kResponse = 2 + kNodes;
 void respond(const Oscillator& oscillator, double tau, double* r);
 
-// Eight oscillators side by side; a group that is not full repeats its last.
-struct OscillatorLanes {
-    Lanes omega, square, inverse_square, damping, gamma;  // ω, ω², 1/ω², 2γ, γ
-    Lanes damped_omega, inverse_damped;                   // √(ω² − γ²) and its inverse
-    double slowest = 0, fastest = 0;                      // of the group [rad/s]
-    bool damped = false;
-    bool alone = false;  // damping beyond half of the critical: each response is computed by itself
+// A polynomial forcing by its nodal values f: row j makes its j-th derivative at a point of a step of length h.
+using Derivatives = std::array<Lanes, kNodes>;
+Derivatives derivatives_at(std::size_t point, double h);
+
+// The motion from a point of a step to an instant τ later: q ← qq q + qv v + sum(forced_q f), v ← vq q + vv v +
+// sum(forced_v f).
+struct Propagation {
+    double qq, qv, vq, vv;
+    Lanes forced_q, forced_v;
 };
-std::vector<OscillatorLanes> pack_oscillators(const std::vector<Oscillator>& oscillators);
-// The responses of a whole group: r[kResponse], in lanes over oscillators.
-void respond(const OscillatorLanes& group, double tau, Lanes* r);
+Propagation propagate(const Oscillator& oscillator, const Derivatives& at_start, double tau);
 
 // The effect of a step of length h on the oscillators: rows for the eight nodes, and for the end.
 struct StepTable {
@@ -63,20 +63,18 @@ struct StepTable {
         // that follows the forcing without vibration.                                                        (S52c)
         Lanes steady, steady_rate;
     };
-    using Powers = std::array<double, kNodes>;  // 1/hʲ
     double h = 0;
     std::vector<Row> rows;
-    // `groups`: the same oscillators packed in lanes.
-    void build(const std::vector<Oscillator>& oscillators, const std::vector<OscillatorLanes>& groups, double length);
+    void build(const std::vector<Oscillator>& oscillators, double length);
     // The step of `table`; but where vibrations are not resolved by the nodes, q and v at the nodes are those of the
     // nearest polynomial of degree seven, by least squares.                                                  (S52c)
     void build_projected(const std::vector<Oscillator>& oscillators, const StepTable& table);
 
   private:
-    void build_row(std::size_t i, const Oscillator& oscillator, const Powers& inverse);
-    void project_row(const Oscillator& oscillator, const Powers& inverse, Row& row) const;
-
-    std::vector<Lanes> responses_;  // kept for its memory
+    using Points = std::array<Derivatives, kNodes + 1>;  // at the start of the step and at its nodes
+    Points points() const;
+    void build_row(const Oscillator& oscillator, const Points& derive, Row& row) const;
+    void project_row(const Oscillator& oscillator, const Points& derive, Row& row) const;
 };
 
 double step_length(int level);  // [s] on the ladder of step lengths, two levels an octave
@@ -89,15 +87,14 @@ int higher_level(int level, double error, double longer, double much_longer);
 // The step tables of the ladder, each built when it is first used, and one of any other length.
 class StepTables {
   public:
-    // Both must outlive this: the oscillators, and the same packed in lanes.
-    StepTables(const std::vector<Oscillator>& oscillators, const std::vector<OscillatorLanes>& groups);
+    // The oscillators must outlive this.
+    explicit StepTables(const std::vector<Oscillator>& oscillators);
     StepTable& level(int k);
     StepTable& length(double h);
     bool on_ladder(const StepTable& table) const { return &table != &other_; }
 
   private:
     const std::vector<Oscillator>& oscillators_;
-    const std::vector<OscillatorLanes>& groups_;
     std::vector<StepTable> ladder_;
     StepTable other_;
 };

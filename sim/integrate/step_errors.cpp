@@ -10,20 +10,19 @@ constexpr double kLeastQuadratureDecay = 1e-5;  // the same for the quadrature, 
 constexpr double kNegligibleChange = 1e-6;      // of the tolerance: the rounding of a motion that has hardly begun
 
 LegendreDecay legendre_decay(const Lanes& nodal, double rounding) {
-    const auto& legendre = Collocation::get().legendre;
-    const auto size = [&](std::size_t j) { return std::fabs(sum(legendre[j] * nodal)); };
+    const Lanes c = Collocation::get().legendre_coefficients(nodal);
+    const auto size = [&](int j) { return std::fabs(c[j]); };
     // In this order of arguments NaN stays NaN, and no step is accepted with it.
     const double last = std::max(std::max(size(6), size(7)) - rounding, 0.0), before = std::max(size(4), size(5));
     return {last, last == 0 ? 0 : std::min(1.0, last / before)};
 }
 
 LegendreRange legendre_range(const Lanes& nodal) {
-    const auto& legendre = Collocation::get().legendre;
-    LegendreRange range{sum(legendre[0] * nodal), 0, 0};
+    const Lanes c = Collocation::get().legendre_coefficients(nodal);
+    LegendreRange range{c[0], 0, 0};
     for (int j = 1; j < kNodes; ++j) {
-        const double size = std::fabs(sum(legendre[static_cast<std::size_t>(j)] * nodal));
-        range.spread += size;
-        range.slope += j * (j + 1) * size;
+        range.spread += std::fabs(c[j]);
+        range.slope += j * (j + 1) * std::fabs(c[j]);
     }
     return range;
 }

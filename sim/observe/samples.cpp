@@ -110,7 +110,7 @@ const std::vector<double>& SampleRecorder::row(const SegmentInterval& s, double 
                                                const std::vector<Channel>& channels) {
     row_.clear();
     if (std::ranges::all_of(channels, [&](Channel c) { return evaluator_.is_of_coordinates(c); })) {
-        s.segment->coordinates(std::max(t, s.from), y_.data());
+        s.segment->value(std::max(t, s.from), y_.data());
         for (const Channel channel : channels) row_.push_back(evaluator_.value_of_coordinates(channel, t, y_.data()));
         return row_;
     }

@@ -34,7 +34,6 @@ const double* touch_channel(const TouchSamples& touch, ChannelKind kind) {
 
 struct StepSamples::Needs {
     bool state = false;    // more than the coordinates
-    bool work = false;     // what damping and drive do to the vibration
     bool contact = false;  // its geometry and, in contact, forces
     bool squared = false;  // it vibrates twice as fast as the beam
 };
@@ -72,7 +71,7 @@ void StepSamples::begin(const SegmentInterval& s) { step_ = s; }
 // Twice the kinetic energy of each mode per mass of the beam; or its whole energy at the start of a motion, which may
 // rest far from equilibrium. Later the deflection follows the forcing without vibration.
 const std::vector<double>& StepSamples::modal_energies(double t, bool whole) {
-    step_.segment->coordinates(t, y_.data());
+    step_.segment->value(t, y_.data());
     const std::size_t n = modes_.size();
     const double *q = y_.data() + 1, *rate = q + n + 1;
     const auto mode = [&](const double* x, std::size_t i) {
@@ -221,7 +220,7 @@ bool StepSamples::is_gap_in_flight(std::size_t channel) const {
 // faster than the beam and the disc move, and is not negative.
 bool StepSamples::ends_suffice(const Instants& part, std::size_t channel, const NeedsMore& needs_more, const See& see) {
     const System& system = evaluator_.system();
-    const MotionBounds* bounds = step_.segment->bounds();
+    const auto bounds = step_.segment->bounds();
     if (!is_gap_in_flight(channel) || !bounds || !system.has_cam()) return false;
     Nodes& of = nodes_[channel];
     const Needs needs = needs_of({&channel, 1});
@@ -246,7 +245,6 @@ StepSamples::Needs StepSamples::needs_of(std::span<const std::size_t> channels) 
     for (const std::size_t c : channels) {
         const ChannelTraits& of = traits(channels_[c].kind);
         out.state = out.state || !evaluator_.is_of_coordinates(channels_[c]);
-        out.work = out.work || of.needs_vibration_work;
         out.squared = out.squared || of.squared;
         out.contact = out.contact || (system.has_cam() && (of.needs_contact || (touching && of.needs_force)));
     }
@@ -254,11 +252,8 @@ StepSamples::Needs StepSamples::needs_of(std::span<const std::size_t> channels) 
 }
 
 void StepSamples::place(double t, const Needs& needs) {
-    if (!needs.state) return step_.segment->coordinates(t, y_.data());
-    if (needs.work)
-        step_.segment->value(t, y_.data());
-    else
-        step_.segment->value_without_vibration_work(t, y_.data());
+    step_.segment->value(t, y_.data());
+    if (!needs.state) return;
     evaluator_.set(t, y_.data());
     if (needs.contact) place_contact(t);
 }

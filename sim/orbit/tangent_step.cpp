@@ -50,7 +50,6 @@ TangentStep::TangentStep(System& probe, ModalJets& jets, const Eigen::VectorXd& 
         const double rate = damping.empty() ? 0 : damping[static_cast<std::size_t>(i * n_)] / model.mass();
         oscillators_.push_back({model.frequency(i), 0.5 * rate});
     }
-    if (!oscillators_.empty()) groups_ = pack_oscillators(oscillators_);
 }
 
 void TangentStep::begin(const Phase& phase) {

@@ -43,8 +43,7 @@ class TangentStep {
     Phase phase_;
     int n_, forced_;                       // coordinates; components with a forcing, the bristle among them
     std::vector<Oscillator> oscillators_;  // of the modes
-    std::vector<OscillatorLanes> groups_;
-    StepTables tables_{oscillators_, groups_};
+    StepTables tables_{oscillators_};
     int flight_level_, touch_level_;
 
     std::vector<Jet> acceleration_;

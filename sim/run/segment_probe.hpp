@@ -28,11 +28,7 @@ class SegmentProbe {
     const double* state() const { return y_.data(); }
     ContactState contact(const Segment& segment, double t) { return system.contact(t, state(segment, t)); }
     // Only foot, gap and gap rate, in flight.
-    ContactState gap(const Segment& segment, double t) {
-        segment.value_without_vibration_work(t, y_.data());
-        return gap_.evaluate(t, y_.data());
-    }
-    double frame_angle(const Segment& segment, double t) { return segment.coordinate(t, 0, y_.data()); }
+    ContactState gap(const Segment& segment, double t) { return gap_.evaluate(t, state(segment, t)); }
 
     int pieces(const Segment& segment) const;
     // Bounds of the coordinates in a segment: middle ± spread.

@@ -11,10 +11,8 @@ namespace beamcam::sim {
 namespace {
 
 constexpr long kEvaluationsPerReport = 256;      // evaluations of the gap between two calls within one step
-constexpr long kMaxAdvances = 100000;            // of conservative advancement through one step
-constexpr long kFirstAdvances = 2000;            // from here on the search stops if kMaxAdvances will not suffice
+constexpr long kMostAdvances = 10000;            // through one step: beyond, its vibrations are resolved
 constexpr double kShortestAdvanceShare = 1e-15;  // of the time: rounding
-constexpr double kWorthwhileAdvance = 1.0 / 32;  // of the step: the least by the distance of the straight beam
 constexpr double kTouchGap = 1e-16;              // of the cam's radius: rounding
 constexpr int kMaxOpeningHalvings = 24;          // of the first subinterval, in search of an open gap after a release
 constexpr double kFootStiffness = 0.5;  // least r″·D + r′·r′ for which the gap's acceleration is bounded
@@ -33,7 +31,7 @@ Guard opening(Probe&& probe, const Guard& start, double later) {
 }  // namespace
 
 std::optional<double> TouchSearch::first_touch(const Segment& segment) {
-    if (const MotionBounds* bounds = segment.bounds()) return by_advancement(segment, *bounds);
+    if (const auto bounds = segment.bounds()) return by_advancement(segment, *bounds);
     const SegmentProbe::Range range = probe_.range(segment);
     const double half = 0.5 * (segment.t1 - segment.t0);
     if (lower_bound(segment.t0 + half, half, range.middle.data(), range.spread.data()) > 0) return {};
@@ -119,8 +117,6 @@ std::optional<double> TouchSearch::by_advancement(const Segment& segment, const 
     if (lower_bound(segment.t0, 0, state_.y.data(), no_spread) > h * speed) return {};
 
     double t = segment.t0;
-    if (t != state_.phase_start) t = while_far(segment, bounds, t);
-    if (t == segment.t1) return {};
     ContactState c = probe_.gap(segment, t);
     const double far = cam().shape().largest_radius() + probe_.system.offset() + std::max(c.gap, 0.0) + h * speed;
     const double most = gap_acceleration_bound(bounds, far);
@@ -135,35 +131,13 @@ std::optional<double> TouchSearch::by_advancement(const Segment& segment, const 
         }
         c.gap = std::max(c.gap, 0.0);  // rounding at the release
     }
-    return advance(segment, t, c, bounds, gap);
-}
-
-// An instant up to which the gap of the straight beam is so much larger than the deflection that nothing touches; the
-// gap is not evaluated for it. Ends where this no longer advances by a good part of the step.
-double TouchSearch::while_far(const Segment& segment, const MotionBounds& bounds, double t) {
-    if (!std::isfinite(bounds.deflection)) return t;
-    const double speed = bounds.theta_dot * reach() + cam().shape().largest_slope() * std::fabs(cam().speed());
-    const double worth = bounds.deflection + kWorthwhileAdvance * (segment.t1 - segment.t0) * speed;
-    const double none[kMaxSize] = {};
-    double straight[kMaxSize] = {};
-    while (t < segment.t1) {
-        straight[0] = probe_.frame_angle(segment, t);
-        const double gap = lower_bound(t, 0, straight, none) - bounds.deflection;
-        if (!(gap > worth)) return t;
-        if (gap > (segment.t1 - t) * speed) return segment.t1;
-        t += gap / speed;
-    }
-    return segment.t1;
+    return advance(segment, t, c, gap);
 }
 
 // Advances from t, with the gap c.gap.
-std::optional<double> TouchSearch::advance(const Segment& segment, double t, ContactState c, const MotionBounds& bounds,
-                                           const Advancement& gap) {
-    const double h = segment.t1 - segment.t0;
-    for (long count = 0; count < kMaxAdvances; ++count) {
+std::optional<double> TouchSearch::advance(const Segment& segment, double t, ContactState c, const Advancement& gap) {
+    for (long count = 0; count < kMostAdvances; ++count) {
         if (count % kEvaluationsPerReport == kEvaluationsPerReport - 1) report_(segment.t0);
-        const auto used = static_cast<double>(count) / static_cast<double>(kMaxAdvances);
-        if (count % kFirstAdvances == kFirstAdvances - 1 && !(t - segment.t0 > used * h)) break;
         // An opening gap is negative only by rounding.
         if (c.gap < 0 && c.gap_rate > 0 && c.gap > -kLowestBounce * problem().beam.length) c.gap = 0;
         if (c.gap < 0 || (c.gap == 0 && c.gap_rate < 0)) return t;
@@ -176,7 +150,7 @@ std::optional<double> TouchSearch::advance(const Segment& segment, double t, Con
                                 kTouchGap * cam().shape().largest_radius());
         }
         const double safe = gap.clear_time(c.gap, c.gap_rate);
-        const double next = while_far(segment, bounds, t + std::max(safe, kShortestAdvanceShare * t));
+        const double next = t + std::max(safe, kShortestAdvanceShare * t);
         if (next >= segment.t1) return {};
         t = next;
         c = probe_.gap(segment, t);

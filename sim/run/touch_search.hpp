@@ -21,9 +21,7 @@ class TouchSearch {
   private:
     std::optional<double> by_pieces(const Segment& segment, double end, int count);
     std::optional<double> by_advancement(const Segment& segment, const MotionBounds& bounds);
-    double while_far(const Segment& segment, const MotionBounds& bounds, double t);
-    std::optional<double> advance(const Segment& segment, double t, ContactState c, const MotionBounds& bounds,
-                                  const Advancement& gap);
+    std::optional<double> advance(const Segment& segment, double t, ContactState c, const Advancement& gap);
     std::optional<double> by_resolving(const Segment& segment);
     bool opens(const Segment& segment, double t);
     double step_error() const;

@@ -167,7 +167,7 @@ TEST(ProjectedSteps, HaveTheNearestPolynomialsOfVibrations) {
                 v = r[0] * v0 - w2 * r[1] * q0 + w2 * (5 * r[1] + 3 / h * r[2] - 12 / (h * h * h) * r[4]);
             };
             StepTable table, projected;
-            table.build({o}, pack_oscillators({o}), h);
+            table.build({o}, h);
             projected.build_projected({o}, table);
             const StepTable::Row& row = projected.rows[0];
             Lanes q = row.qq * q0 + row.qv * v0, v = row.vq * q0 + row.vv * v0;
