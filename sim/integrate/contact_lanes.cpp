@@ -14,7 +14,7 @@ namespace {
 constexpr double kExpansionTolerance = 1e-2;
 // Even for loose tolerances it reaches no farther than this, [–] of 1/β, a small part of a wave, and of the beam.
 constexpr double kFarthestWave = 0.2, kLongestExpansion = 0.1;
-constexpr double kKeptRange = 1.0 / 3;  // an expansion is kept while the contact stays so far within its range
+constexpr double kNearestCentre = 1.0 / 3;  // of the range: the farthest point from the nearest centre of the grid
 
 // β|x − centre| up to which the expansion is accurate.
 double trusted(double rtol) {
@@ -60,26 +60,22 @@ ContactExpansion::ContactExpansion(System& system)
                              section_.data() + k * n_);
 }
 
-void ContactExpansion::centre(double x) {
-    BEAMCAM_ASSERT(x >= 0 && x <= length_);
-    if (x_ >= 0 && std::fabs(x - x_) < kKeptRange * range_) return;
-    expand(x);
-}
-
 void ContactExpansion::centre_near(double x) {
+    BEAMCAM_ASSERT(x >= 0 && x <= length_);
     double place = 0;
     if (exact()) {
         // A wave of `centre_exact` is as long in the angle φ, x = ½L(1 − cos φ), wherever it is.
-        const double pitch = 2 * kKeptRange * trusted_ / (static_cast<double>(n_) + 0.5);
+        const double pitch = 2 * kNearestCentre * trusted_ / (static_cast<double>(n_) + 0.5);
         place = 0.5 * length_ * (1 - std::cos(pitch * std::round(std::acos(1 - 2 * x / length_) / pitch)));
     } else {
-        const double pitch = 2 * kKeptRange * range_;
+        const double pitch = 2 * kNearestCentre * range_;
         place = std::min(length_, pitch * std::round(x / pitch));
     }
-    if (place != x_) expand(place);
+    centre_at(place);
 }
 
-void ContactExpansion::expand(double x) {
+void ContactExpansion::centre_at(double x) {
+    if (x == x_) return;
     x_ = x;
     if (n_ == 0) return;
     double* y = y_.data();

@@ -113,12 +113,10 @@ class ContactExpansion {
 
     explicit ContactExpansion(System& system);
 
-    // Expands about x unless the present expansion covers it.
-    void centre(double x);
+    // Expands about x itself.
+    void centre_at(double x);
     // Expands about the nearest point of a fixed grid: the result does not depend on earlier expansions.
     void centre_near(double x);
-    // The next call of `centre` expands in any case.
-    void forget() { x_ = -1; }
     double at() const { return x_; }
     // Largest distance from the centre at which the expansion is accurate [m].
     double range() const { return range_; }
@@ -161,7 +159,6 @@ class ContactExpansion {
     // `exact`: r at the centre, its rate, and ∂r/∂q.
     template <class T>
     void integrate(const T* q, const T* v, Point<T>& at, T* rows) const;
-    void expand(double x);
     void centre_exact(double x);
 
     std::shared_ptr<const ModalModel> model_;  // of the shapes; null for `exact`

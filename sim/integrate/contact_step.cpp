@@ -60,7 +60,7 @@ void ContactStep::begin_touch(const ContactState& c) {
     held_end_ = {c.force, step_.system.off_constraint(c.gap, c.gap_rate)};
     approach = phase.approach;
     gap_offset_ = phase.gap_offset;
-    expansion_.centre(c.x);
+    expansion_.centre_near(c.x);
     start = {};
     start.dx = c.x - expansion_.at();
 }

@@ -69,7 +69,7 @@ class ContactStep {
     } held_start_, held_end_;
     Lanes off_at_nodes_{};  // ġ + κg that the nodes are to have
     StepTable projected_;   // of the vibrations, in sustained contact
-    double gap_offset_ = 0, centred_ = -1;
+    double gap_offset_ = 0;
     double force_rounding_ = 0;  // of the force by rounding of the penetration and its rate [N]
     double decays_ = 0;          // decay of the contact's own damping within the step [–]
     double mobility_modes_ = 0, mobility_hub_ = 0, mobility_contact_ = 0;

@@ -14,11 +14,11 @@ void ContactStep::evaluate(double t, const double* state, ContactKinematics<doub
 void ContactStep::begin() {
     held_start_ = held_end_;
     const ExponentialSegment& s = step_.segment;
+    const double before = expansion_.at();
     evaluate(s.t0, s.end.data(), start);
-    expansion_.centre(expansion_.at() + start.dx);
-    if (expansion_.at() != centred_) {
-        centred_ = expansion_.at();
-        start.dx = 0;
+    expansion_.centre_near(before + start.dx);
+    if (expansion_.at() != before) {
+        start.dx += before - expansion_.at();
         evaluate(s.t0, s.end.data(), start);
     }
     place_at_start();

@@ -13,14 +13,13 @@
 namespace beamcam::sim {
 namespace {
 
-constexpr int kTouchLevels = 8;       // above the lowest, which a contact may use: then another method is better
 constexpr double kLeastStep = 1e-14;  // of the time: rounding
 // A step of flight errs by the power 8 of its length, one in contact by 12 where the force has just set in. A level is
 // a factor √2 in length: below these errors the next step is one level longer, or two.
 constexpr int kFlightOrder = 8, kTouchOrder = 12;
 constexpr double kLongerTouch = 0.02, kMuchLongerTouch = 1e-4;
 constexpr double kShortestFlight = 4e-16, kShortestTouch = 1e-13;  // of the time: rounding; of the force
-constexpr double kShortestTouchEver = 1e-12;                       // [s] no contact is as stiff
+constexpr double kShortestTouchEver = 1e-11;                       // [s] no contact is as stiff
 constexpr int kMostSweeps = 12;  // in flight: at a contraction of a half a step half as long is cheaper
 // Changes of the iteration that no longer fall are rounding once they are below this share of the largest.
 constexpr double kFlightRounding = 1e-12;
@@ -31,12 +30,6 @@ constexpr double kStiff = 1;  // damping ratio above which stability limits expl
 // ones in contact, as nothing settles, Runge and Kutta's method is as good.
 constexpr double kLeastTurns = 0.5;
 constexpr long kFirstRetry = 32;  // steps of the other method before the next try, twice as many each time
-// Another method, made when it is first needed, and what it has counted so far.
-struct Fallback {
-    Method method;
-    std::unique_ptr<Integrator> integrator = nullptr;
-    IntegratorCounters seen = {};
-};
 
 // Solves for the nodal forcing. Returns the error in units of the tolerance, kNoSolution if the iteration fails.
 double solve_flight(NodalStep& step, const StepTable& table) {
@@ -65,7 +58,7 @@ class Exponential final : public Integrator {
           tables_(step_.form->oscillators),
           rtol_(rtol),
           atol_(atol),
-          damping_(step_.n > 0 ? system.damping_ratio() : 0) {
+          stiff_(step_.n > 0 && system.damping_ratio() > kStiff) {
         if (!system.has_cam()) return;
         contact_.emplace(step_);
         contact_end_.emplace(step_, *contact_);
@@ -105,12 +98,12 @@ class Exponential final : public Integrator {
             retry_later();
         }
         if (steps_to_retry_ > 0) --steps_to_retry_;
-        fallback_->integrator->stop_at(stop_);
-        return counted(fallback_->integrator->step());
+        other_->stop_at(stop_);
+        return counted(other_->step());
     }
 
     const Segment& shorten(double at) override {
-        if (falling_back_) return counted(fallback_->integrator->shorten(at));
+        if (falling_back_) return counted(other_->shorten(at));
         ExponentialSegment& s = segment();
         BEAMCAM_ASSERT(at > s.t0);
         if (at == s.t1) return s;
@@ -125,7 +118,7 @@ class Exponential final : public Integrator {
         if (solve_up_to(at)) return s;
         ++counters.handed_over;
         hand_over(s.t0, scratch_.data(), at - s.t0);
-        return counted(fallback_->integrator->step());
+        return counted(other_->step());
     }
 
   private:
@@ -141,24 +134,16 @@ class Exponential final : public Integrator {
     // The other method takes some steps before the next try.
     void retry_later() { steps_to_retry_ = std::exchange(retry_after_, 2 * retry_after_); }
 
-    // The explicit or the implicit method.
-    Fallback& other_method() {
-        const bool stiff = damping_ > kStiff;
-        Fallback& other = stiff ? implicit_ : explicit_;
-        if (!other.integrator)
-            other.integrator = stiff ? make_sundials(other.method, system_, kShareOfBdf * rtol_, kShareOfBdf * atol_)
-                                     : make_rk8(system_, rtol_, atol_);
-        return other;
-    }
-
-    // The fallback continues from (t, y), with a first step of at most `first`.
+    // The other method continues from (t, y), with a first step of at most `first`.
     void hand_over(double t, const double* y, double first) {
         falling_back_ = true;
-        fallback_ = &other_method();
-        counters.fallback = fallback_->method;
-        fallback_->integrator->limit_first_step(first);
-        fallback_->integrator->stop_at(stop_);
-        fallback_->integrator->start(t, y);
+        if (!other_)
+            other_ = stiff_ ? make_sundials(Method::cvode_bdf, system_, kShareOfBdf * rtol_, kShareOfBdf * atol_)
+                            : make_rk8(system_, rtol_, atol_);
+        counters.fallback = stiff_ ? Method::cvode_bdf : Method::rk8;
+        other_->limit_first_step(first);
+        other_->stop_at(stop_);
+        other_->start(t, y);
         count();
     }
 
@@ -168,12 +153,12 @@ class Exponential final : public Integrator {
         return segment;
     }
     void count() {
-        const IntegratorCounters& now = fallback_->integrator->counters;
-        counters.steps += now.steps - fallback_->seen.steps;
-        counters.fallback_steps += now.steps - fallback_->seen.steps;
-        counters.rejected += now.rejected - fallback_->seen.rejected;
-        counters.rhs += now.rhs - fallback_->seen.rhs;
-        fallback_->seen = now;
+        const IntegratorCounters& now = other_->counters;
+        counters.steps += now.steps - seen_.steps;
+        counters.fallback_steps += now.steps - seen_.steps;
+        counters.rejected += now.rejected - seen_.rejected;
+        counters.rhs += now.rhs - seen_.rhs;
+        seen_ = now;
     }
 
     // The longest step of flight from here: on the ladder, or shorter where the first step or the rest of the interval
@@ -251,7 +236,7 @@ class Exponential final : public Integrator {
             }
             ++counters.rejected;
             touch_level_ = lower_level(touch_level_, length, error, kTouchOrder, 3);
-            if (touch_level_ < kLowestLevel + kTouchLevels || step_length(touch_level_) < shortest_touch()) {
+            if (step_length(touch_level_) < shortest_touch()) {
                 touch_level_ = kFirstTouchLevel;
                 return false;
             }
@@ -310,9 +295,9 @@ class Exponential final : public Integrator {
     std::optional<ContactStep> contact_;
     std::optional<ContactStepEnd> contact_end_;
     const double rtol_, atol_;
-    const double damping_;  // the largest damping ratio
-    Fallback explicit_{Method::rk8}, implicit_{Method::cvode_bdf};
-    Fallback* fallback_ = nullptr;  // the one in use, or used last
+    const bool stiff_;                   // a mode is damped beyond the critical
+    std::unique_ptr<Integrator> other_;  // the method that takes over, made when it is first needed
+    IntegratorCounters seen_;            // of it, counted so far
     bool falling_back_ = true, touching_ = false;
     double t_ = 0;
     int flight_level_ = kFirstFlightLevel, touch_level_ = kFirstTouchLevel;

@@ -124,10 +124,7 @@ ContactKinematics<T> ModalJets::kinematics(const std::vector<T>& xi, const std::
     frame.turned = xi[0] - psi;
     frame.osculating = !cam_.is_disc() && !near.at_end;
     if (!frame.osculating) place_disc(psi, near, frame);
-    if (expansion_->at() != near.x) {
-        expansion_->forget();
-        expansion_->centre(near.x);
-    }
+    expansion_->centre_at(near.x);
     ContactKinematics<T> touch;
     const int corrections = near.at_end ? 0 : std::is_same_v<T, Jet> ? 1 : 2;
     expansion_->evaluate(xi.data() + 1, rate.data() + 1, frame, gap_offset, hq.data(), touch, corrections);
