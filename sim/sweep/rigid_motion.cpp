@@ -97,7 +97,7 @@ void RigidMotion::impact() {
     if (slow && pull > 0) return rest_on(c);
     announce(ContactEvent::release, c, after);
     state_.rate = after;
-    if (slow) lift_after_impact();
+    slow ? lift_after_impact() : resume(false);
 }
 
 // The conditions of Transitions::sum_up_chatter (S57).

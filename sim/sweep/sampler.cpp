@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "sim/base/numerics.hpp"
 #include "sim/observe/crossings.hpp"
@@ -11,16 +12,6 @@ namespace beamcam::sim {
 
 constexpr double kSettledTolerances = 10;  // error of a settled motion, in units of rtol
 constexpr int kCarriedRounds = 8;          // Newton iterations that move a carried state to the surface
-
-bool points_away(const Problem& problem, double from, double to, const std::function<HubAt(double)>& hub) {
-    if (!problem.cam || is_prescribed(problem.hub.drive)) return false;
-    const auto away = [&](double angle) { return dot(unit(angle), problem.cam->centre) < 0; };
-    const HubAt first = hub(from), last = hub(to);
-    if (away(first.angle) || away(last.angle)) return true;
-    if (!(first.rate * last.rate < 0)) return false;
-    const auto rate = [&](double t) { return hub(t).rate; };
-    return away(hub(find_root(rate, from, to, first.rate, last.rate)).angle);
-}
 
 Sampler::Sampler(const System& system, const Sampling& sampling)
     : sampling_(sampling),
@@ -45,13 +36,14 @@ Sampler::Peaks::Peaks(const System& system) : finder(system, channels_of_peaks()
     sample.fill(kNan);
 }
 
-void Sampler::resume(double, const std::vector<double>& y, const Phase& phase) {
+void Sampler::resume(double t, const std::vector<double>& y, const Phase& phase) {
     phase_ = phase;
     system_.set_phase(phase);
     if (step_) step_->set_phase(phase);
     if (peaks_) peaks_->finder.set_phase(phase);
     if (!phase.touching) left_ = true;
     motion_.end = {y, phase};
+    hub_ = hub_at(t, y.data());
 }
 
 MotionSample Sampler::sample(double t, const double* y) {
@@ -75,17 +67,30 @@ void Sampler::step(const SegmentInterval& s) {
         if (step_ && s.to > s.from) events(s);
         if (peaks_) raise_peaks(s);
     }
-    motion_.over_the_top = leaves(s);
     evaluate(s, s.to);
     motion_.end.y = y_;
+    const Hub before = std::exchange(hub_, hub_at(s.to, y_.data()));
+    motion_.over_the_top = points_away(s, before, hub_);
 }
 
-bool Sampler::leaves(const SegmentInterval& s) {
-    return points_away(system_.problem(), s.from, s.to, [&](double t) {
+Sampler::Hub Sampler::hub_at(double t, const double* y) {
+    system_.set_state(t, y);
+    return {system_.model().hub_angle(), system_.model().hub_rate()};
+}
+
+// The beam points away from the cam at an end of the interval, or at a turning point in it.                  (S80)
+bool Sampler::points_away(const SegmentInterval& s, const Hub& before, const Hub& after) {
+    const Problem& problem = system_.problem();
+    if (!problem.cam || is_prescribed(problem.hub.drive)) return false;
+    const auto away = [&](const Hub& hub) { return dot(unit(hub.angle), problem.cam->centre) < 0; };
+    if (away(before) || away(after)) return true;
+    if (!(before.rate * after.rate < 0)) return false;
+    const auto hub = [&](double t) {
         evaluate(s, t);
-        system_.set_state(t, y_.data());
-        return HubAt{system_.model().hub_angle(), system_.model().hub_rate()};
-    });
+        return hub_at(t, y_.data());
+    };
+    const auto rate = [&](double t) { return hub(t).rate; };
+    return away(hub(find_root(rate, s.from, s.to, before.rate, after.rate)));
 }
 
 void Sampler::strobes(const SegmentInterval& s) {

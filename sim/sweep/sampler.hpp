@@ -1,7 +1,6 @@
 // Samples of one motion, taken during the integration. The trajectory is not stored.
 #pragma once
 
-#include <functional>
 #include <optional>
 
 #include "sim/observe/extrema.hpp"
@@ -43,7 +42,11 @@ class Sampler final : public Observer {
     void strobes(const SegmentInterval& s);
     void sections(const SegmentInterval& s);
     void events(const SegmentInterval& s);
-    bool leaves(const SegmentInterval& s);
+    struct Hub {
+        double angle = 0, rate = 0;
+    };
+    Hub hub_at(double t, const double* y);
+    bool points_away(const SegmentInterval& s, const Hub& before, const Hub& after);
     void evaluate(const SegmentInterval& s, double t);
 
     const Sampling& sampling_;
@@ -53,6 +56,7 @@ class Sampler final : public Observer {
     std::optional<Peaks> peaks_;
     SampledMotion motion_;
     std::vector<double> y_;
+    Hub hub_;  // at the end of the last step
     Phase phase_;
     std::optional<MotionSample> impact_;  // of the present contact
     double section_phase_;                // fraction of a turn after the start: 0 … 1
@@ -68,12 +72,5 @@ SampledMotion sample_by_run(const Problem& problem, const Sampling& sampling, co
 // The end of another motion as the initial state of this problem: a beam inside the cam is moved out of it, and one in
 // sustained impulsive contact onto its surface.
 InitialState carried(const Problem& problem, const InitialState& end);
-
-// The hub at one instant [rad], [rad/s].
-struct HubAt {
-    double angle, rate;
-};
-// The beam points away from the cam at an end of an interval, or at a turning point in it.                  (S80)
-bool points_away(const Problem& problem, double from, double to, const std::function<HubAt(double)>& hub);
 
 }  // namespace beamcam::sim
