@@ -37,8 +37,14 @@ Box whole_part(const Image& source, const Box& part) {
 
 }  // namespace
 
-Canvas::Canvas(Image& image, const Fonts& fonts) : Painter(fonts), image_(image) {
-    begin(surface_of(image), fmt::format("a picture of {}×{} pixels", image.width, image.height));
+Canvas::Canvas(Image& image, const Fonts& fonts) : Painter(fonts), width_(image.width), height_(image.height) {
+    begin(surface_of(image), fmt::format("a picture of {}×{} pixels", width_, height_));
+}
+Canvas::Canvas(VectorFile& file, int width, int height, const Fonts& fonts)
+    : Painter(fonts), width_(width), height_(height), is_vector_(true) {
+    begin(file.surface(), fmt::format("a drawing of {}×{} pixels", width_, height_));
+    const double unit = file.unit() * kPointsPerPixel;
+    cairo_scale(cr_, unit, unit);
 }
 Canvas::~Canvas() noexcept(false) { end(); }
 
@@ -58,6 +64,20 @@ void Canvas::paint(Color c) {
     if (touched) touched->add_all();
 }
 
+void Canvas::fill_piece(std::span<const Vec2> corners, Color color) {
+    polyline(corners);
+    close();
+    if (is_vector_) {
+        fill_keeping_path(color);
+        return stroke({color, 0.3});
+    }
+    mark_path(0);
+    set_source(color);
+    cairo_set_antialias(cr_, CAIRO_ANTIALIAS_NONE);
+    cairo_fill(cr_);
+    cairo_set_antialias(cr_, CAIRO_ANTIALIAS_DEFAULT);
+}
+
 void Canvas::image_part(const Image& source, int x, int y, const Box& part) {
     const Box b = whole_part(source, part), there{b.x + x, b.y + y, b.w, b.h};
     blend(cr_, source, x, y, {&there, 1});
@@ -66,6 +86,7 @@ void Canvas::image_part(const Image& source, int x, int y, const Box& part) {
 }
 
 void Canvas::image_tiles(const Image& source, int x, int y, const DirtyTiles& tiles) {
+    if (is_vector_) return pixels(source, {double(x), double(y), double(source.width), double(source.height)});
     std::vector<Box> runs;
     tiles.for_each_run([&](int left, int top, int right, int bottom) {
         const int x0 = std::max(left, x), y0 = std::max(top, y);
@@ -77,9 +98,10 @@ void Canvas::image_tiles(const Image& source, int x, int y, const DirtyTiles& ti
     if (touched) touched->add(tiles);
 }
 
-// Glyphs are placed at whole pixels. Cairo rounds points to 1/256 px first; the runs of a text share this rounding,
-// else they might be in different rows.
+// Glyphs of images are placed at whole pixels. Cairo rounds points to 1/256 px first; the runs of a text share this
+// rounding, else they might be in different rows.
 Vec2 Canvas::rounded_start(Vec2 at, const SetLabel& label, const TextStyle& style) {
+    if (is_vector_) return at;
     double baseline = 0;
     for (const SetRun& run : label.runs) baseline = std::max(baseline, baseline_of(layout_of(*fonts_, run, style)));
     cairo_move_to(cr_, at.x, at.y - baseline);
@@ -89,6 +111,7 @@ Vec2 Canvas::rounded_start(Vec2 at, const SetLabel& label, const TextStyle& styl
 }
 
 void Canvas::write(const SetRun& run, Vec2 at, const TextStyle& style) {
+    if (is_vector_) return Painter::write(run, at, style);
     cairo_move_to(cr_, at.x, std::floor(at.y + 0.5));
     pango_cairo_show_layout_line(cr_, pango_layout_get_line_readonly(layout_of(*fonts_, run, style), 0));
     new_path();

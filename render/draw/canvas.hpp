@@ -1,4 +1,5 @@
-// Drawing on an Image with Cairo and Pango: paths, strokes, text. Coordinates in pixels, y down.
+// Drawing a picture with Cairo and Pango: paths, strokes, text; on an Image or as vector graphics. Coordinates in
+// pixels, y down.
 //
 // Texts are markup (markup.hpp). The boxes of drawn texts can be recorded, so that tests can check that texts stay
 // inside their panels and do not overlap.
@@ -16,16 +17,22 @@
 #include "render/draw/image.hpp"
 #include "render/draw/painter.hpp"
 #include "render/draw/text_style.hpp"
+#include "render/draw/vector_file.hpp"
 
 namespace beamcam::render {
 
 class Canvas : public Painter {
   public:
     Canvas(Image& image, const Fonts& fonts);
+    // The same picture as vector graphics; width, height: of the picture [px].
+    Canvas(VectorFile& file, int width, int height, const Fonts& fonts);
     ~Canvas() noexcept(false) override;  // throws if Cairo failed: a picture is complete, or there is an error
 
     void rounded(const Box& box, double radius);
     void paint(Color color);
+    // Paints the pixels of a polygon whose colours meet those of its neighbours: without antialiasing. In vector
+    // graphics it overlaps them by a hair, since viewers show gaps between areas that only touch.
+    void fill_piece(std::span<const Vec2> corners, Color color);
 
     // Blends a part of `source` [px of the source, rounded outwards], whose top left pixel goes to (x, y).
     void image_part(const Image& source, int x, int y, const Box& part);
@@ -36,7 +43,9 @@ class Canvas : public Painter {
     Box text(Vec2 baseline, std::string_view markup, const TextStyle& style) override;
     Box measure(std::string_view markup, const TextStyle& style) const override;
     const Fonts& fonts() const { return *fonts_; }
-    const Image& image() const { return image_; }  // as drawn so far
+    int width() const { return width_; }    // of the picture [px]
+    int height() const { return height_; }  // [px]
+    bool is_vector() const { return is_vector_; }
 
     // The colour of a halo of all texts, for pictures without paper; null: texts have the halos of their styles.
     std::optional<Color> halo_of_all = {};
@@ -46,7 +55,8 @@ class Canvas : public Painter {
     Vec2 rounded_start(Vec2 at, const SetLabel& label, const TextStyle& style);
     void write(const SetRun& run, Vec2 at, const TextStyle& style) override;
 
-    const Image& image_;
+    int width_, height_;
+    bool is_vector_ = false;
 };
 
 // The first of the texts that is no wider than `room`; the last one if none is.

@@ -144,16 +144,6 @@ void Painter::fill_between(std::span<const Vec2> outer, std::span<const Vec2> in
     cairo_fill(cr_);
 }
 
-void Painter::fill_piece(std::span<const Vec2> corners, Color color) {
-    polyline(corners);
-    close();
-    mark_path(0);
-    set_source(color);
-    cairo_set_antialias(cr_, CAIRO_ANTIALIAS_NONE);
-    cairo_fill(cr_);
-    cairo_set_antialias(cr_, CAIRO_ANTIALIAS_DEFAULT);
-}
-
 void Painter::stroke(const Pen& pen) {
     mark_path(pen.width / 2);  // joins are round
     set_source(pen.color);

@@ -60,8 +60,6 @@ class Painter {
     void fill_keeping_path(Color color);
     // Fills the area between an outline and one inside of it, whose corners run the same way.
     void fill_between(std::span<const Vec2> outer, std::span<const Vec2> inner, Color color);
-    // Paints the pixels of a polygon whose colours meet those of its neighbours: without antialiasing.
-    void fill_piece(std::span<const Vec2> corners, Color color);
     void stroke(const Pen& pen);
     void line(Vec2 from, Vec2 to, const Pen& pen);
     // A line through any number of points; NaN breaks it.
@@ -83,6 +81,7 @@ class Painter {
     void end();
     void set_source(Color color);
     void mark_painted(const Box& box);  // adds its tiles to `touched`, with a pixel of antialiasing
+    void mark_path(double around);      // marks what the path reaches, this far beyond its points
     void new_path();
     // Draws the outline of a label's letters, which keeps them readable over drawings.
     static double halo_width(const TextStyle& style);
@@ -98,8 +97,7 @@ class Painter {
 
   private:
     cairo_surface_t* surface_ = nullptr;
-    int exceptions_ = 0;            // number of active exceptions when drawing began
-    void mark_path(double around);  // marks what the path reaches, this far beyond its points
+    int exceptions_ = 0;  // number of active exceptions when drawing began
 };
 
 }  // namespace beamcam::render

@@ -11,12 +11,11 @@ namespace {
 // shadows.
 Box picture_box(const MechanismScene& s) {
     const MechanismView& at = s.at;
-    const Image& picture = s.canvas.image();
     const Box wide = at.moved || s.view ? at.box : at.box.inset(-std::floor(10 * at.unit));
-    const double x0 = std::clamp(std::floor(wide.x), 0.0, picture.width - 1.0),
-                 y0 = std::clamp(std::floor(wide.y), 0.0, picture.height - 1.0);
-    return {x0, y0, std::clamp(std::ceil(wide.right()), x0 + 1, double(picture.width)) - x0,
-            std::clamp(std::ceil(wide.bottom()), y0 + 1, double(picture.height)) - y0};
+    const double x0 = std::clamp(std::floor(wide.x), 0.0, s.canvas.width() - 1.0),
+                 y0 = std::clamp(std::floor(wide.y), 0.0, s.canvas.height() - 1.0);
+    return {x0, y0, std::clamp(std::ceil(wide.right()), x0 + 1, double(s.canvas.width())) - x0,
+            std::clamp(std::ceil(wide.bottom()), y0 + 1, double(s.canvas.height())) - y0};
 }
 
 }  // namespace
@@ -44,7 +43,7 @@ void BodyPicture::draw(const MechanismScene& s) {
         counts.read_back += renderer_->read_back - before;
         ++counts.bodies_drawn;
     }
-    DirtyTiles where(s.canvas.image().width, s.canvas.image().height);
+    DirtyTiles where(s.canvas.width(), s.canvas.height());
     seen_.for_each_run([&](double left, double top, double right, double bottom) {
         where.add({box.x + left, box.y + top, right - left - 1, bottom - top - 1});
     });

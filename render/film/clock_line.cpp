@@ -62,7 +62,7 @@ ClockLine::ClockLine(const FilmContext& context) : context_(context) {
             {Pill::Kind::speed, context.look.translate(widest_speed_text(setup.speeds)), context.look.palette.contact});
     for (int m = 0; m < context.members() && mechanism && setup.view.show.labels; ++m)
         if (!context.motion(m).impacts.empty() && context.scales.largest_force > 0)
-            pills_.push_back({Pill::Kind::peak, peak_text(context, "88.8\u00A0mN"),
+            pills_.push_back({Pill::Kind::peak, peak_text(context, "0.0888\u00A0mN"),
                               context.members() > 1 ? context.member_color(m) : context.look.palette.contact, m});
     steady_ = steady_speed(setup.speeds);
     Image scratch(1, 1);
@@ -121,7 +121,8 @@ std::string ClockLine::words(const Pill& pill, int frame) const {
             break;
     }
     const double peak = recent_peak(context_, pill.member, frame);
-    return peak > 0 ? peak_text(context_, reading(peak, "N")) : std::string();
+    return peak > 0 ? peak_text(context_, reading(peak, prefix_for(context_.scales.largest_force), "N"))
+                    : std::string();
 }
 
 void ClockLine::draw(Canvas& canvas, int frame) const {

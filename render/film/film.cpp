@@ -24,7 +24,7 @@ struct Film::Prepared {
     std::vector<std::unique_ptr<FilmPanel>> panels;
     const MechanismPanel* mechanism = nullptr;  // the first mechanism panel
     Image background;                           // everything that never changes
-    std::vector<Box> background_texts;
+    std::vector<Box> background_texts;          // their ink
     std::optional<ClockLine> clock;
     std::optional<CaptionBand> captions;
     std::vector<std::string> cut_texts;
@@ -35,7 +35,10 @@ struct Film::Prepared {
             if (slot.spec.kind == PanelKind::mechanism && !mechanism)
                 mechanism = static_cast<const MechanismPanel*>(panels.back().get());
         }
-        draw_background();
+        background = Image(context.setup->width, context.setup->height);
+        Canvas canvas(background, *context.fonts);
+        canvas.record = &background_texts;
+        if (draw_background(canvas)) cut_texts.emplace_back("the title");
         clock.emplace(context);
         captions.emplace(context);
         if (std::ranges::any_of(panels, [](const auto& panel) { return panel->cuts_names(); }))
@@ -45,12 +48,13 @@ struct Film::Prepared {
         context.extent = {};  // not needed for drawing
     }
 
+    // True: the title is cut.
+    bool draw_background(Canvas& canvas) const;
     void draw_moving(Canvas& canvas, int frame, Style style,
                      const std::vector<std::unique_ptr<FilmPanel::State>>& states) const;
 
   private:
-    void draw_background();
-    void draw_header(Canvas& canvas);
+    bool draw_header(Canvas& canvas) const;
 };
 
 // What a thread keeps between frames. A frame is the background with the moving parts on top, unclipped; so its pixels
@@ -75,25 +79,23 @@ struct Film::FrameRenderer {
 
 // ---- the background --------------------------------------------------------------------------
 
-void Film::Prepared::draw_background() {
-    const FilmSetup& setup = *context.setup;
-    background = Image(setup.width, setup.height);
-    Canvas canvas(background, *context.fonts);
+bool Film::Prepared::draw_background(Canvas& canvas) const {
     canvas.halo_of_all = context.look.palette.halo_of_all();
-    canvas.record = &background_texts;
-    if (!setup.view.transparent) canvas.paint(context.look.palette.paper);
-    draw_header(canvas);
+    if (!context.setup->view.transparent) canvas.paint(context.look.palette.paper);
+    const bool cut = draw_header(canvas);
     for (const auto& panel : panels) panel->draw_background(canvas);
     draw_color_bars(canvas, context);
+    return cut;
 }
 
-void Film::Prepared::draw_header(Canvas& canvas) {
+bool Film::Prepared::draw_header(Canvas& canvas) const {
+    bool cut = false;
     const double u = context.look.unit;
     const FilmSetup& setup = *context.setup;
     const Layout& places = context.places;
     if (const auto& b = places.title; b && !setup.title.empty()) {
         const FittedText title = fitted_title(canvas, setup.title, *b, context.look.letters);
-        if (title.cut) cut_texts.emplace_back("the title");
+        cut = title.cut;
         TextStyle style = title_style(context.look.letters, context.look.palette.ink);
         style.size = title.size;
         canvas.text({b->x, b->y + 0.95 * context.look.letters.title}, title.markup, style);
@@ -111,6 +113,7 @@ void Film::Prepared::draw_header(Canvas& canvas) {
                      .color = context.look.palette.muted,
                      .align = HAlign::right,
                      .max_width = b->w});
+    return cut;
 }
 
 // ---- the film --------------------------------------------------------------------------------
@@ -189,6 +192,19 @@ const DirtyTiles& Film::changed() const {
 }
 
 void Film::draw(int frame, Image& out) { out = draw(frame); }
+
+std::string Film::draw(int frame, Medium medium, const Document& document) {
+    const Prepared& p = *prepared_;
+    FrameRenderer& t = renderer_for(frame);
+    const int width = p.background.width, height = p.background.height;
+    VectorFile file(medium, width * kPointsPerPixel, height * kPointsPerPixel, document);
+    {
+        Canvas canvas(file, width, height, t.fonts);
+        p.draw_background(canvas);
+        p.draw_moving(canvas, frame, p.context.setup->view.style, t.states);
+    }
+    return file.take_bytes();
+}
 
 FrameGeometry Film::geometry(int frame) {
     const Prepared& p = *prepared_;

@@ -19,6 +19,7 @@
 #include "render/draw/dirty_tiles.hpp"
 #include "render/draw/geometry.hpp"
 #include "render/draw/image.hpp"
+#include "render/draw/vector_file.hpp"
 #include "render/film/camera.hpp"
 #include "render/film/layout.hpp"
 #include "render/mechanism/exaggeration.hpp"
@@ -167,6 +168,8 @@ class Film {
     const Image& draw(int frame);
     const DirtyTiles& changed() const;  // where the last two pictures may differ; everything after the first
     void draw(int frame, Image& out);   // a copy; `out` is resized as needed
+    // The same picture as a PDF or SVG; solid bodies are an image in it, with the pixels of the picture.
+    std::string draw(int frame, Medium medium, const Document& document);
     FrameGeometry geometry(int frame);  // of the flat view: loads no OpenGL
     double exaggeration() const;
     bool exaggeration_reduced() const;  // below the requested factor, because the beam would enter the cam

@@ -65,12 +65,11 @@ const PanelSlot* Layout::first(PanelKind kind) const {
 LayoutNode standard_grid(int width, int height, const std::vector<PanelSpec>& side, int members) {
     using enum LayoutNode::Kind;
     constexpr int kRowOfMechanisms = 3;  // from this number on mechanisms have the whole width
-    constexpr double kBesideCharts = 1.55, kAboveRow = 1.8, kAboveChart = 0.9;  // shares of the mechanisms
+    constexpr double kBesideCharts = 1.55, kAboveRow = 1.8, kAboveCharts = 1.3;  // shares of the mechanisms
     const bool beside = is_wide(width, height) && members < kRowOfMechanisms, tall = is_tall(width, height);
     LayoutNode charts{.kind = beside || tall ? rows : columns};
     for (const PanelSpec& spec : side) charts.children.push_back({.panel = spec});
-    const auto count = static_cast<double>(std::max<std::size_t>(side.size(), 1));
-    const double share = beside ? kBesideCharts : tall ? kAboveChart * count : kAboveRow;
+    const double share = beside ? kBesideCharts : tall ? kAboveCharts : kAboveRow;
     // Cells of mechanisms are about as wide as high.
     const double part = side.empty() ? 1 : share / (share + 1),
                  shape = beside ? part * width / height : width / (part * height);

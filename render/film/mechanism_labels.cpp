@@ -45,14 +45,15 @@ std::optional<double> arc_radius(const MechanismView& home) {
     const double hub = solid ? 1.5 * home.hub() + kMountDepth * home.wide : home.hub();
     const double least = hub + 22 * home.marks, usual = std::max(kUsual * home.marks, hub + 50 * letter);
     const double reach = kOfReach * (home.problem().hub.radius + home.problem().beam.length) * scale;
-    double radius = std::min(usual, reach);
+    const double beside = home.box.right() - home.px({0, 0}).x - home.unit;  // where the arc begins
+    double radius = std::min({usual, reach, beside});
     if (const std::optional<sim::Cam>& cam = home.problem().cam) {
         const double before = arc_before_cam(home.problem()) * scale - 30 * letter;
         const double aside = solid ? 2 * kDiscDepth * home.wide + 40 * letter : 12 * home.unit;
         const double beyond = (norm(cam->centre) + cam_reach(home.problem())) * scale + aside;
         if (before >= least && !solid)
             radius = std::min(radius, before);
-        else if (beyond <= reach)
+        else if (beyond <= std::min(reach, beside))
             radius = std::max(radius, beyond);
     }
     return radius >= least ? std::optional(radius) : std::nullopt;

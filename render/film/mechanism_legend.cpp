@@ -58,9 +58,7 @@ void MechanismLegend::fit_names(const Canvas& canvas) {
 }
 
 void MechanismLegend::draw(Canvas& canvas, const MechanismView& at) const {
-    if (at_.box.w >= 300 * at_.unit && at_.box.h >= 220 * at_.unit && at_.labelled() &&
-        at_.context.setup->view.style != Style::solid)
-        scale_bar(canvas, at);
+    if (at_.has_scale_bar()) scale_bar(canvas, at);
     names(canvas);
 }
 

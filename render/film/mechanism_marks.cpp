@@ -21,10 +21,14 @@ static void name_base_line(const MechanismScene& s, const std::vector<Vec2>& lin
     for (std::size_t i = 0; i < line.size(); ++i)
         if (!std::isnan(line[i].x) && inside.contains({line[i].x, line[i].y, 0, 0})) last = i;
     if (last == line.size()) return;
-    if (s.px(s.beam.back(last)).y < line[last].y + 0.2 * size || s.px(s.beam.face(last)).y < line[last].y + 0.2 * size)
-        return;
-    s.canvas.text(line[last] - Vec2{0.4 * size, 0.5 * size}, s.at.context.look.translate("undeflected"),
-                  {.size = size, .color = s.at.palette.muted, .align = HAlign::right});
+    // Towards the hub, above a line that rises from there or below one that falls, if the beam is on the other side.
+    const auto [upper, lower] = std::minmax({s.px(s.beam.back(last)).y, s.px(s.beam.face(last)).y});
+    const Vec2 o = s.at.px({0, 0});
+    const bool above = line[last].y < o.y, leftward = line[last].x < o.x;
+    if (above ? upper < line[last].y + 0.2 * size : lower > line[last].y - 0.2 * size) return;
+    s.canvas.text(line[last] + Vec2{(leftward ? 0.4 : -0.4) * size, (above ? -0.5 : 1.2) * size},
+                  s.at.context.look.translate("undeflected"),
+                  {.size = size, .color = s.at.palette.muted, .align = leftward ? HAlign::left : HAlign::right});
 }
 
 // The base line of the exaggerated deflection.

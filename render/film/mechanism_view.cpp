@@ -34,7 +34,8 @@ void MechanismView::place_camera() {
     // A beam thinner than a line is drawn with the width of a line, which it gains on the side away from the cam.
     const auto as_deep_as = [&](const ViewExtent& extent) {
         const double label = !names ? 0 : (box.h > 200 * unit ? 38 : 28) * unit;
-        look.camera = extent.camera({box.x, box.y + label, box.w, box.h - label}, unit);
+        const double scale_bar = has_scale_bar() ? context.look.letters.words : 0;
+        look.camera = extent.camera({box.x, box.y + label, box.w, box.h - label - scale_bar}, unit);
         look.depth = std::max(beam_depth(problem().beam), 7 * unit / look.camera.scale);
     };
     as_deep_as(context.extent);

@@ -56,7 +56,7 @@ PictureFrame picture_frame(int width, int height, const Shown& shown) {
     }
     if (shown.warning && is_large) {
         out.warning = Box{margin, f.bottom - 26 * u, w - 2 * margin, 26 * u};
-        f.bottom -= 34 * u;
+        f.bottom -= 40 * u;
     }
     const bool apart = has_scales && !wide;  // beside the clock there is not enough space
     if (apart) {
@@ -72,7 +72,7 @@ PictureFrame picture_frame(int width, int height, const Shown& shown) {
         out.clock->w = out.scales->x - 30 * u - out.clock->x;
     }
     if (has_title || has_parameters) f.top += 10 * u;
-    if (has_clock) f.bottom -= 10 * u;
+    if (has_clock) f.bottom -= 18 * u;
     if (shown.captions && w >= 230 * u && h >= 190 * u) {
         out.captions = Box{margin, f.bottom - kCaptionBand * u, w - 2 * margin, kCaptionBand * u};
         f.bottom -= (kCaptionBand + 10) * u;

@@ -82,15 +82,14 @@ void Chart::draw_moving(Canvas& canvas, double t, std::span<const double> readin
     const Range view = windowed() ? window_around(t, *c_.window) : time();
     // Past and future meet at the cursor: each is drawn within its own part of the plot.
     const double cut = cursor_column(view, t) + 1, top = plot.y - kAround;
+    if (!windowed() && t < time().low) return;
+    const bool over = !windowed() && t > time().high;  // everything is past
     double from = plot.x;
-    if (!windowed()) {
+    if (!windowed() && !canvas.is_vector()) {
         const Box box = past_box();
-        const bool over = t > time().high;  // everything is past
-        if (over || t >= time().low) {
-            from = std::max<double>(over ? std::lround(plot.right() + 1) : past_column(t), box.x);
-            canvas.image_part(past_, static_cast<int>(box.x), static_cast<int>(box.y), {0, 0, from - box.x, box.h});
-        }
-        if (over || t < time().low) return;
+        from = std::max<double>(over ? std::lround(plot.right() + 1) : past_column(t), box.x);
+        canvas.image_part(past_, static_cast<int>(box.x), static_cast<int>(box.y), {0, 0, from - box.x, box.h});
+        if (over) return;
     }
     std::optional<figure::Plot> shown;  // the window
     if (windowed()) {
@@ -106,7 +105,7 @@ void Chart::draw_moving(Canvas& canvas, double t, std::span<const double> readin
     const figure::Interval past{std::max(view.low, view.low + (from - plot.x - before) * column),
                                 std::min(t, view.high), true};
     canvas.clip({from, top, cut - from, past_box().h}, [&] { (shown ? *shown : plot_).draw_data(canvas, past); });
-    draw_cursor(canvas, cut - 0.5, readings);
+    if (!over) draw_cursor(canvas, cut - 0.5, readings);
 }
 
 void Chart::draw_cursor(Canvas& canvas, double x, std::span<const double> readings) const {

@@ -53,7 +53,7 @@ class FigureLayout {
     void draw() const {
         for (std::size_t i = 0; i < drawings_.size(); ++i) {
             if (drawings_[i])
-                drawings_[i]->draw();
+                drawings_[i]->draw(bar_beside(i));
             else
                 draw_shapes(figure_.panels[i], page_.style, sheet_, cell(i));
         }
@@ -65,6 +65,29 @@ class FigureLayout {
   private:
     bool lowest(std::size_t i) const { return !figure_.share_x || grid_.columns > 1 || i + 1 == figure_.panels.size(); }
 
+    // Panels above each other that have the same curves share the legend of the first.
+    bool shows_legend(std::size_t i) const {
+        const Panel& panel = figure_.panels[i];
+        if (!panel.legend || i == 0 || grid_.columns > 1) return panel.legend;
+        const Panel& above = figure_.panels[i - 1];
+        const auto labels = [](const Panel& p) {
+            std::vector<std::string> all;
+            for (const Series& curve : p.series) all.push_back(curve.label);
+            return all;
+        };
+        const bool curves_alone = panel.bands.empty() && panel.clouds.empty() && panel.swatches.empty();
+        return !(curves_alone && above.legend && labels(above) == labels(panel));
+    }
+
+    // Panels above each other that have the same colour bar share one, as high as all of them.
+    Box bar_beside(std::size_t i) const {
+        const auto has_same_bar = [&](const Panel& p) { return p.color_bar == figure_.panels[0].color_bar; };
+        if (grid_.columns > 1 || !std::ranges::all_of(figure_.panels, has_same_bar)) return plot(i);
+        if (i > 0) return {};
+        const Box first = plot(0), last = plot(figure_.panels.size() - 1);
+        return {first.x, first.y, first.w, last.bottom() - first.y};
+    }
+
     void make_drawings() {
         const Box one = cell(0);
         for (std::size_t i = 0; i < figure_.panels.size(); ++i) {
@@ -73,7 +96,7 @@ class FigureLayout {
                                                  figure_.panels.size() > 1 ? fmt::format(", panel {}", i + 1) : "");
             drawings_.push_back(panel.shapes.empty()
                                     ? std::make_unique<PanelDrawing>(panel, page_.style, sheet_, 0.8 * one.w,
-                                                                     0.75 * cell(i).h, lowest(i), what)
+                                                                     0.75 * cell(i).h, lowest(i), shows_legend(i), what)
                                     : nullptr);
         }
     }

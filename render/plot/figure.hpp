@@ -97,6 +97,7 @@ struct ColorBar {
     std::optional<double> from = {}, to = {};
     bool is_signed = false;  // signed_color, from −to to `to`; else map_color
     bool root = false;       // colours follow the square root of the share, so that small values differ too
+    bool operator==(const ColorBar&) const = default;
 };
 // The colour of a value by its share of the largest: −1…1 if the bar is signed, else 0…1.
 Color color_of(const ColorBar& bar, double share);

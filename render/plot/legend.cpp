@@ -10,14 +10,15 @@ namespace {
 constexpr double kSampleLength = 2.6, kRow = 1.35, kBetween = 0.75;
 }  // namespace
 
-LegendAbove::LegendAbove(const Panel& panel, const PlotStyle& style, PageCanvas& sheet) : style_(style), sheet_(sheet) {
+LegendAbove::LegendAbove(const Panel& panel, const PlotStyle& style, PageCanvas& sheet, bool shown)
+    : style_(style), sheet_(sheet) {
     const auto add = [&](const std::string& label, const Series* series, Color color, bool dots) {
         if (label.empty()) return;
         const double width = kSampleLength * style.letters + style.gap + sheet.measure(label, style.words()).w;
         entries_.push_back({label, series, color, dots, width, {}});
         widest_ = std::max(widest_, width);
     };
-    if (!panel.legend) return;
+    if (!shown) return;
     for (const Series& s : panel.series) add(s.label, &s, {}, false);
     for (const Band& b : panel.bands) add(b.label, nullptr, pale(look(b.look).color, 0.72), false);
     for (const Cloud& c : panel.clouds) add(c.label, nullptr, c.color, true);

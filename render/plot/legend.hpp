@@ -10,7 +10,7 @@ namespace beamcam::render::figure {
 
 class LegendAbove {
   public:
-    LegendAbove(const Panel& panel, const PlotStyle& style, PageCanvas& sheet);
+    LegendAbove(const Panel& panel, const PlotStyle& style, PageCanvas& sheet, bool shown);
 
     void fit(double width);  // arranges the entries in rows of this width
     bool empty() const { return entries_.empty(); }

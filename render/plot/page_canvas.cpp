@@ -1,9 +1,6 @@
 #include "render/plot/page_canvas.hpp"
 
-#include <cairo-pdf.h>
-#include <cairo-svg.h>
 #include <cairo.h>
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <pango/pangocairo.h>
 
@@ -20,28 +17,10 @@ namespace {
 
 constexpr double kLargestSide = 16384;  // [px]: a picture beyond it is a mistake, and 1 GB
 
-cairo_status_t collect(void* out, const unsigned char* data, unsigned int length) {
-    static_cast<std::string*>(out)->append(reinterpret_cast<const char*>(data), length);
-    return CAIRO_STATUS_SUCCESS;
-}
-
-void describe(cairo_surface_t* pdf, const Document& d) {
-    const auto add = [&](cairo_pdf_metadata_t key, const std::string& text) {
-        if (!text.empty()) cairo_pdf_surface_set_metadata(pdf, key, text.c_str());
-    };
-    add(CAIRO_PDF_METADATA_TITLE, d.title);
-    add(CAIRO_PDF_METADATA_SUBJECT, d.subject);
-    add(CAIRO_PDF_METADATA_KEYWORDS, d.scene);
-    add(CAIRO_PDF_METADATA_CREATOR, d.creator);
-    const std::string when = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(static_cast<std::time_t>(d.created)));
-    add(CAIRO_PDF_METADATA_CREATE_DATE, when);
-    add(CAIRO_PDF_METADATA_MOD_DATE, when);
-}
-
 }  // namespace
 
 PageCanvas::PageCanvas(Medium medium, const Paper& paper, const Fonts& fonts, const Document& document)
-    : Painter(fonts), medium_(medium), paper_(paper), document_(document) {
+    : Painter(fonts), medium_(medium), paper_(paper) {
     if (paper.dark) recolor_ = on_dark;
     const double scale = paper.dpi / kPointsPerInch;
     const std::string what =
@@ -57,13 +36,10 @@ PageCanvas::PageCanvas(Medium medium, const Paper& paper, const Fonts& fonts, co
                        static_cast<int>(std::ceil(paper.height * scale - 1e-6)));
         unit = scale;
         begin(surface_of(image_), what);
-    } else if (medium == Medium::pdf) {
-        begin(cairo_pdf_surface_create_for_stream(collect, &stream_, paper.width, paper.height), what);
-        describe(cairo_get_target(cr_), document);
     } else {
-        unit = kMillimetresPerInch / kPointsPerInch;
-        begin(cairo_svg_surface_create_for_stream(collect, &stream_, paper.width * unit, paper.height * unit), what);
-        cairo_svg_surface_set_document_unit(cairo_get_target(cr_), CAIRO_SVG_UNIT_MM);
+        file_.emplace(medium, paper.width, paper.height, document);
+        unit = file_->unit();
+        begin(file_->surface(), what);
     }
     cairo_scale(cr_, unit, unit);
     set_source(rgb(0xFFFFFF));
@@ -144,23 +120,8 @@ Image PageCanvas::image() {
 }
 
 std::string PageCanvas::bytes() {
-    cairo_show_page(cr_);
     end();
-    std::string file = std::move(stream_);
-    if (medium_ != Medium::svg) return file;
-    // Cairo numbers the surfaces of a program; nothing refers to this number.
-    if (const std::size_t id = file.find("<g id=\"surface"); id != std::string::npos) {
-        const std::size_t number = id + 14;
-        file.erase(number, file.find('"', number) - number);
-    }
-    // Cairo writes no metadata into an SVG; they go behind the opening tag.
-    const std::size_t tag = file.find("<svg"), end = file.find('>', tag);
-    if (end == std::string::npos) return file;
-    file.insert(end + 1, fmt::format("\n<title>{}</title>\n<desc>{}</desc>\n<metadata>\n<creator>{}</creator>\n"
-                                     "<scene>{}</scene>\n</metadata>",
-                                     xml(document_.title), xml(document_.subject), xml(document_.creator),
-                                     xml(document_.scene)));
-    return file;
+    return file_->take_bytes();
 }
 
 }  // namespace beamcam::render::figure

@@ -1,10 +1,10 @@
 // The canvas of a printed figure: PNG, PDF or SVG behind one set of strokes, fills and labels.
 //
 // Units are points (1/72 inch) of the printed figure, y down, whatever the medium: a line of 0.8 pt and a letter of
-// 8 pt are that on paper. PDF text is embedded TrueType, SVG is measured in millimetres and carries its glyphs as
-// outlines. The same calls give the same bytes.
+// 8 pt are that on paper.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,21 +16,11 @@
 #include "render/draw/image.hpp"
 #include "render/draw/painter.hpp"
 #include "render/draw/text_style.hpp"
+#include "render/draw/vector_file.hpp"
 
 namespace beamcam::render::figure {
 
-inline constexpr double kPointsPerInch = 72, kMillimetresPerInch = 25.4;
 inline constexpr double points(double millimetres) { return millimetres * kPointsPerInch / kMillimetresPerInch; }
-
-enum class Medium { png, pdf, svg };
-
-// The metadata of a file. PDF has only these keys; its keywords hold the scene.
-struct Document {
-    std::string title, subject;
-    std::string scene;         // JSON
-    std::string creator;       // "beamcam 0.1.0"
-    std::int64_t created = 0;  // [s] since 1970, UTC; in the bytes, so not the present time
-};
 
 struct Paper {
     double width = 255, height = 170;  // [pt]
@@ -69,9 +59,8 @@ class PageCanvas : public Painter {
   private:
     Medium medium_;
     Paper paper_;
-    Document document_;
     Image image_;
-    std::string stream_;  // of PDF and SVG
+    std::optional<VectorFile> file_;  // of PDF and SVG
 };
 
 }  // namespace beamcam::render::figure

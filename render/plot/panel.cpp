@@ -9,13 +9,13 @@
 namespace beamcam::render::figure {
 
 PanelDrawing::PanelDrawing(const Panel& panel, const PlotStyle& style, PageCanvas& sheet, double width, double height,
-                           bool lowest, const std::string& what)
+                           bool lowest, bool legend, const std::string& what)
     : panel_(panel),
       style_(style),
       sheet_(sheet),
       plot_(panel, style, what, lowest),
       names_(panel, style, sheet, lowest),
-      legend_(panel, style, sheet) {
+      legend_(panel, style, sheet, legend) {
     place({0, 0, width, height});
 }
 
@@ -33,7 +33,7 @@ void PanelDrawing::place(const Box& box) {
 
 // ---- data ----------------------------------------------------------------------------------------
 
-void PanelDrawing::draw() const {
+void PanelDrawing::draw(const Box& bar_beside) const {
     sheet_.clip(plot_.box(), [&] { draw_backgrounds(); });
     draw_data();
     label_rules();
@@ -41,10 +41,10 @@ void PanelDrawing::draw() const {
     const double top = plot_.box().y - margins().top;
     if (has_letter_in_legend()) {
         legend_.draw({plot_.box().x + names_.letter_width(), top});
-        return names_.draw(plot_, top + legend_.baseline(), true);
+        return names_.draw(plot_, top + legend_.baseline(), true, bar_beside);
     }
     legend_.draw({plot_.box().x, top + names_.titles_height()});
-    names_.draw(plot_, top + style_.letters, !legend_.empty());
+    names_.draw(plot_, top + style_.letters, !legend_.empty(), bar_beside);
 }
 
 std::array<Vec2, 2> PanelDrawing::ends(const Rule& r) const {

@@ -12,15 +12,17 @@ namespace beamcam::render::figure {
 
 class PanelDrawing {
   public:
-    // `width`, `height`: about the size of the plot; `lowest`: this panel shows the numbers and label of x.
+    // `width`, `height`: about the size of the plot; `lowest`: this panel shows the numbers and label of x; `legend`:
+    // it shows the legend if it has one.
     PanelDrawing(const Panel& panel, const PlotStyle& style, PageCanvas& sheet, double width, double height,
-                 bool lowest, const std::string& what);
+                 bool lowest, bool legend, const std::string& what);
 
     Margins margins() const;  // room that numbers, labels, colour bar and legend need around the plot
     double width_of_legend() const { return legend_.least_width(); }
     // Sets the plot; the margins may change with the numbers and with the lines of labels.
     void place(const Box& plot);
-    void draw() const;
+    // `bar_beside`: the colour bar is to its right and as high; empty: another panel shows the bar.
+    void draw(const Box& bar_beside) const;
 
   private:
     // The legend's first row is behind a letter that has no title.

@@ -104,12 +104,12 @@ Margins PanelNames::room_around(const Plot& plot) const {
 
 // ---- drawing ------------------------------------------------------------------------------------------
 
-void PanelNames::draw(const Plot& plot, double top, bool legend_above) const {
+void PanelNames::draw(const Plot& plot, double top, bool legend_above, const Box& bar_beside) const {
     if (lowest_) draw_label_below(plot);
     draw_labels_beside(plot);
     draw_common_factors(plot);
     draw_titles(plot, top, plot.y().common().empty() && !legend_above);
-    if (plot.bar()) draw_color_bar(plot);
+    if (plot.bar() && !bar_beside.empty()) draw_color_bar(plot, bar_beside);
 }
 
 void PanelNames::draw_label_below(const Plot& plot) const {
@@ -181,9 +181,9 @@ Color color_of(const ColorBar& bar, double share) {
     return bar.is_signed ? signed_color(shown) : map_color(shown);
 }
 
-void PanelNames::draw_color_bar(const Plot& plot) const {
+void PanelNames::draw_color_bar(const Plot& plot, const Box& beside) const {
     const AxisMap& axis = *plot.bar();
-    const Box bar{plot.box().right() + 2.2 * style_.gap, plot.box().y, 0.9 * style_.letters, plot.box().h};
+    const Box bar{beside.right() + 2.2 * style_.gap, beside.y, 0.9 * style_.letters, beside.h};
     std::vector<Color> colors;
     constexpr int kSteps = 128;
     for (int k = 0; k <= kSteps; ++k) {

@@ -24,7 +24,7 @@ class PanelNames {
     double titles_height() const { return titles_height_; }  // of letter and title above the plot; 0: none
     double letter_width() const;                             // with the space behind it; 0: none
     // `top`: baseline of letter and title; they are directly above the plot if nothing else is.
-    void draw(const Plot& plot, double top, bool legend_above) const;
+    void draw(const Plot& plot, double top, bool legend_above, const Box& bar_beside) const;
 
   private:
     struct Label {
@@ -39,7 +39,7 @@ class PanelNames {
     void draw_labels_beside(const Plot& plot) const;
     void draw_common_factors(const Plot& plot) const;
     void draw_titles(const Plot& plot, double top, bool alone) const;
-    void draw_color_bar(const Plot& plot) const;
+    void draw_color_bar(const Plot& plot, const Box& beside) const;
 
     const Panel& panel_;
     const PlotStyle& style_;

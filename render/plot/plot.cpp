@@ -66,8 +66,8 @@ struct Number {
 };
 
 // The middle of the name of an axis in the row of its numbers below the plot: at the right end if the last number
-// leaves room there, otherwise before the last number, as DIN 461 recommends, in place of the number before it if
-// necessary. If the numbers move, those at the right end give way. Omits the numbers that give way.
+// leaves room there, otherwise before the last number, as DIN 461 recommends. If the numbers move, those at the right
+// end give way and are omitted.
 double place_name(const Painter& painter, std::vector<Tick>& ticks, const Box& plot, const std::string& name,
                   const TextStyle& style, double unit, bool moves) {
     std::vector<Number> numbers;
@@ -82,12 +82,7 @@ double place_name(const Painter& painter, std::vector<Tick>& ticks, const Box& p
     const double at_end = end - wide / 2, least = end - wide - gap;
     const std::size_t n = numbers.size();
     if (n == 0 || numbers.back().right < least) return at_end;
-    for (std::size_t before = 2; !moves && before <= std::min<std::size_t>(n, 3); ++before) {
-        const double from = numbers[n - before].right, to = numbers.back().left;
-        if (to - from < wide + 2 * gap) continue;
-        if (before == 3) numbers[n - 2].label->clear();
-        return (from + to) / 2;
-    }
+    if (!moves && n > 1) return (numbers[n - 2].right + numbers.back().left) / 2;
     for (const Number& number : numbers)
         if (number.right >= least) number.label->clear();
     return at_end;
@@ -110,12 +105,13 @@ void Plot::fit_x(const Painter& on, const Axis& axis, const Extent& data) {
         x_.emplace(axis, data, axis.names.empty() ? across : static_cast<int>(width_ / room), what);
         return;
     }
-    // As many numbers as are apart.
+    // As many numbers as leave room between each other, for the name of the axis if they do not move.
     const auto most_that_fit = static_cast<int>(width_ / ((axis.grid ? 85 : 75) * style_->unit));
     for (int most = std::clamp(most_that_fit, 2, axis.grid ? 6 : 7); most >= 2; --most) {
         x_.emplace(axis, data, most, what);
         const auto [low, high] = x_->ends();
-        const double wide = on.measure(fixed(high, decimals_of(x_->step())), numbers).w + 14 * style_->unit;
+        const double between = moves_ ? 14 * style_->unit : on.measure(x_->name(), numbers).w + 20 * style_->unit;
+        const double wide = on.measure(fixed(high, decimals_of(x_->step())), numbers).w + between;
         if (x_->step() / (high - low) * width_ >= wide) break;
     }
 }

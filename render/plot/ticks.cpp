@@ -81,11 +81,10 @@ std::string quantity(double value, Prefix p, const char* unit, int digits) {
     return (value < 0 ? "−" : "") + number + "\u00A0" + p.symbol + unit;
 }
 
-std::string reading(double value, const char* unit) {
-    const Prefix p = prefix_for(std::abs(value));
+std::string reading(double value, Prefix p, const char* unit) {
     const double shown = std::abs(value) / p.factor;
     if (!(shown > 0)) return quantity(value, p, unit, 3);
-    const int decimals = shown < 9.995 ? 2 : shown < 99.95 ? 1 : 0;
+    const int decimals = shown < 0.9995 ? 3 : shown < 9.995 ? 2 : shown < 99.95 ? 1 : 0;
     return fixed(value / p.factor, decimals) + "\u00A0" + p.symbol + unit;
 }
 

@@ -32,8 +32,6 @@ std::string fixed(double value, int decimals);  // with a true minus sign; never
 
 // Three significant digits with an SI prefix: quantity(0.02, "m") is "20 mm"; a no-break space between.
 std::string quantity(double value, const char* unit, int digits = 3);
-// A changing value with three digits: "1.90 MN" after "2.95 MN"; zero is "0 N".
-std::string reading(double value, const char* unit);
 // The SI prefix that suits values up to `largest`: its symbol and factor ("m", 1e-3).
 struct Prefix {
     const char* symbol;
@@ -42,5 +40,7 @@ struct Prefix {
 Prefix prefix_for(double largest);
 // With a given prefix, for values beside each other.
 std::string quantity(double value, Prefix prefix, const char* unit, int digits = 3);
+// A changing value with three digits: "1.90 MN" after "2.95 MN"; zero is "0 N".
+std::string reading(double value, Prefix prefix, const char* unit);
 
 }  // namespace beamcam::render

@@ -208,7 +208,6 @@ void act(const FigureArguments& given) {
     if (holds_columns(args.scene)) return draw_table(args);
     Scene scene = load_scene(args.scene, args.common);
     if (args.figure.empty() && !args.of_series().empty()) args.figure = "series";
-    if (args.figure.empty() && args.print.value("--at")) args.figure = "strobe";
     if (args.preset && !args.figure.empty())
         throw UsageError(fmt::format("figure {}: --preset names another figure; give one of them", args.figure));
     if (args.list || (args.figure.empty() && !args.preset)) {
@@ -258,7 +257,6 @@ void add_content_options(CLI::App& app, FigureArguments& args) {
     args.span.add(app, "--horizon", "horizon", "BOOL");
     args.span.add(app, "--from", "from", "T");
     args.span.add(app, "--to", "to", "T");
-    args.print.add(app, "--at", "at", "T");
     args.print.add(app, "--window", "window", "T");
 }
 

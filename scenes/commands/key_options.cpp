@@ -91,11 +91,6 @@ std::vector<std::pair<std::string, std::string>> KeyOptions::given() const {
     return out;
 }
 
-void KeyOptions::forget(std::string_view name) {
-    for (Option& option : options_)
-        if (option.name == name) option.value.reset();
-}
-
 Output read_output(Node output, std::initializer_list<const KeyOptions*> options, Scene scene,
                    const std::string& scene_file, const Common& common) {
     std::vector<Message> messages;

@@ -35,7 +35,6 @@ class KeyOptions {
     // The options that were given, and the first part of their keys: {"--low", "panels"}.
     std::vector<std::pair<std::string, std::string>> given() const;
     bool any() const { return !given().empty(); }
-    void forget(std::string_view name);
 
   private:
     struct Option {

@@ -43,28 +43,17 @@ void choose_codec(PictureOutput& film, const std::string& ending, const std::str
     if (encoding.codec == output::Codec::gif && film.span.fps.value() > 50) film.span.fps = {25, 1};
 }
 
-// Vector graphics of one instant: the figure "strobe".
-FigureOutput vector_still(const RenderArguments& args, const PictureOutput& film) {
-    if (!args.still.value("--at")) throw UsageError(fmt::format("-o {}: name the instant with --at", args.file));
-    if (!args.others.empty())
-        throw UsageError(fmt::format("-o {} shows one motion; name one scene, or a .png file", args.file));
-    FigureOutput figure;
-    figure.figure = "strobe";
-    figure.series.at.emplace();
-    figure.lang = film.view.lang;
-    return figure;
-}
-
-// The output gets the keys that it has in common with `film`.
+// The output has the keys that it has in common with `film`.
 Output output_for_file(const RenderArguments& args, PictureOutput film) {
     const std::string ending = ending_of(args.file);
     require_ending("-o", args.file,
                    {".mp4", ".webm", ".mov", ".mkv", ".gif", ".webp", ".png", ".pdf", ".svg", ".html"});
-    if (ending == ".pdf" || ending == ".svg") return vector_still(args, film);
+    const bool vector = ending == ".pdf" || ending == ".svg";
     const bool numbered = is_numbered(std::filesystem::path(args.file).filename().string());
     using enum PictureOutput::Kind;
     film.kind = args.still.value("--at") ? still : ending == ".html" ? page : ending == ".png" ? frames : video;
-    if (film.kind == still && (ending != ".png" || numbered))
+    if (vector && film.kind != still) throw UsageError(fmt::format("-o {}: name the instant with --at", args.file));
+    if (film.kind == still && ((ending != ".png" && !vector) || numbered))
         throw UsageError(
             fmt::format("--at makes one picture; -o {} must be a .png, .pdf or .svg file without '#'", args.file));
     if (film.kind == page && !args.others.empty())
@@ -88,11 +77,7 @@ Output with_options(const RenderArguments& args, const Output& base, const Scene
         for (const char* key : kKeysOfStories) remove(node, key);
         remove(node, "layout");  // that of a film which shows everything
     }
-    KeyOptions film = args.film;
-    if (const std::string* theme = film.value("--theme");
-        theme && *theme == "print" && std::holds_alternative<FigureOutput>(base))
-        film.forget("--theme");  // figures are for print
-    Output output = read_output(std::move(node), {&film, &args.still}, scene, args.scene, args.common);
+    Output output = read_output(std::move(node), {&args.film, &args.still}, scene, args.scene, args.common);
     std::visit([&](auto& each) { each.file = args.file; }, output);  // wherever it is
     return output;
 }

@@ -154,8 +154,8 @@ class CamDrawing {
 
 }  // namespace
 
-std::string cam_drawing(const sim::Problem& problem, const sim::Lever& lever, render::figure::Medium medium,
-                        const render::figure::Document& document) {
+std::string cam_drawing(const sim::Problem& problem, const sim::Lever& lever, render::Medium medium,
+                        const render::Document& document) {
     CamDrawing drawing(problem, lever);
     const render::Fonts fonts(false, render::Typefaces::print);
     PageCanvas page(medium, drawing.paper(), fonts, document);

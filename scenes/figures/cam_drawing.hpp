@@ -10,7 +10,7 @@
 namespace beamcam::scenes {
 
 // A PDF or SVG, whose page is as large as the drawing needs. Throws PictureError where no page is large enough.
-std::string cam_drawing(const sim::Problem& problem, const sim::Lever& lever, render::figure::Medium medium,
-                        const render::figure::Document& document);
+std::string cam_drawing(const sim::Problem& problem, const sim::Lever& lever, render::Medium medium,
+                        const render::Document& document);
 
 }  // namespace beamcam::scenes

@@ -36,7 +36,7 @@ figure::Page page_of(const figure::Figure& f, const FigureOutput& how) {
 
 // Draws the figure and returns what `take` reads from the canvas.
 template <class Take>
-auto drawn(const figure::Figure& f, const FigureOutput& how, figure::Medium medium, const figure::Document& document,
+auto drawn(const figure::Figure& f, const FigureOutput& how, render::Medium medium, const render::Document& document,
            Take take) {
     const figure::Page page = page_of(f, how);
     const render::Fonts fonts(figure::needs_chinese(f),
@@ -48,10 +48,10 @@ auto drawn(const figure::Figure& f, const FigureOutput& how, figure::Medium medi
 }
 
 std::string bytes_of(const figure::Figure& f, const FigureOutput& how, const std::string& scene) {
-    const figure::Document document = document_of(render::to_plain(f.title), render::to_plain(whole_caption(f)), scene);
+    const render::Document document = document_of(render::to_plain(f.title), render::to_plain(whole_caption(f)), scene);
     const std::string ending = ending_of(how.file);
     if (ending != ".png")
-        return drawn(f, how, ending == ".pdf" ? figure::Medium::pdf : figure::Medium::svg, document,
+        return drawn(f, how, ending == ".pdf" ? render::Medium::pdf : render::Medium::svg, document,
                      [](figure::PageCanvas& sheet) { return sheet.bytes(); });
     return output::encode_png(figure_image(f, how), {how.dpi,
                                                      {{"Title", document.title},
@@ -63,13 +63,13 @@ std::string bytes_of(const figure::Figure& f, const FigureOutput& how, const std
 
 }  // namespace
 
-figure::Document document_of(std::string title, std::string subject, std::string scene) {
+render::Document document_of(std::string title, std::string subject, std::string scene) {
     return {std::move(title), std::move(subject), std::move(scene), fmt::format("beamcam {}", kVersion),
             creation_instant()};
 }
 
 render::Image figure_image(const figure::Figure& f, const FigureOutput& how) {
-    return drawn(f, how, figure::Medium::png, {}, [](figure::PageCanvas& sheet) { return sheet.image(); });
+    return drawn(f, how, render::Medium::png, {}, [](figure::PageCanvas& sheet) { return sheet.image(); });
 }
 
 std::vector<std::string> missing_data(const figure::Figure& f) {

@@ -17,7 +17,7 @@ std::vector<std::pair<std::string, std::string>> figure_files(const render::figu
                                                               const FigureOutput& how, const std::string& scene);
 
 // The metadata of a figure's file. `title`, `subject`: plain text.
-render::figure::Document document_of(std::string title, std::string subject, std::string scene);
+render::Document document_of(std::string title, std::string subject, std::string scene);
 
 // Its pixels at `how.dpi`, as a .png has them.
 render::Image figure_image(const render::figure::Figure& figure, const FigureOutput& how);

@@ -12,8 +12,9 @@ namespace beamcam::scenes {
 namespace {
 
 // Panel of points from zero on.
-Panel map_panel(std::string x_label, std::string y_label) {
-    return {.x = {.label = std::move(x_label), .from = 0},
+Panel map_panel(std::string title, std::string x_label, std::string y_label) {
+    return {.title = std::move(title),
+            .x = {.label = std::move(x_label), .from = 0},
             .y = {.label = std::move(y_label), .from = 0},
             .series = {{.line = false, .every_point = true}},
             .legend = false};
@@ -24,7 +25,7 @@ double phase_of(const sim::Impact& hit) {
     const double turns = hit.cam_angle / (2 * std::numbers::pi);
     return turns - std::floor(turns);
 }
-std::string phase_label(Lang lang) { return phrase(lang, "phase of the cam") + " / (2π)"; }
+constexpr const char* kPhaseLabel = "$φ$ / (2π)";
 
 // A logarithmic axis for ratios of very different size: a slow touch can leave much faster than it came.
 void spread_ratios(Panel& panel) {
@@ -40,13 +41,12 @@ void spread_ratios(Panel& panel) {
 // Restitution against speed, each collision against the next, and two speeds of each impact against the cam's phase.
 std::vector<Panel> impact_maps(const Subject& subject, const sim::Result& result, double from, double to) {
     const auto& [problem, units, lang, end] = subject;
-    const auto speed = [&](const char* which) {
-        return axis_label(phrase(subject.lang, "approach speed") + which, "m/s");
-    };
+    const auto speed = [](const char* of) { return axis_label(of, "m/s"); };
     const Measure turning = measure_in(units, "rad/s");
-    Panel loss = map_panel(speed(""), phrase(lang, "coefficient of restitution")),
-          next = map_panel(speed(" $k$"), speed(" $k$\u00A0+\u00A01")), phase = map_panel(phase_label(lang), speed("")),
-          hub = map_panel(phase_label(lang), axis_label("$\\dot{θ}$", turning.unit));
+    Panel loss = map_panel(phrase(lang, "restitution") + "; – – $c$_{r}", speed("$v$"), "$c$"),
+          next = map_panel(phrase(lang, "next collision"), speed("$v_{k}$"), speed("$v_{k+1}$")),
+          phase = map_panel(phrase(lang, "approach speed"), kPhaseLabel, speed("$v$")),
+          hub = map_panel(phrase(lang, "hub speed"), kPhaseLabel, axis_label("$\\dot{θ}$", turning.unit));
     for (const sim::Impact& hit : strikes(problem, result.impacts, from, to)) {
         if (hit.restitution) loss.series[0].add(std::abs(hit.v_n_before), *hit.restitution);
         phase.series[0].add(phase_of(hit), std::abs(hit.v_n_before));
@@ -55,8 +55,8 @@ std::vector<Panel> impact_maps(const Subject& subject, const sim::Result& result
     const std::vector<sim::Collision> all = strikes(problem, result.collisions, from, to);
     for (std::size_t k = 0; k + 1 < all.size(); ++k)
         next.series[0].add(std::abs(all[k].v_n_before), std::abs(all[k + 1].v_n_before));
-    // Above 1 the vibration gives energy back; on the diagonal a collision is as fast as the one before it.
-    loss.rules = {{.at = 1}, {.at = problem.contact.restitution, .label = "$c$_{r}"}};
+    // On the diagonal a collision is as fast as the one before it.
+    loss.rules = {{.at = problem.contact.restitution}};
     if (!next.series[0].x.empty()) {
         const double fastest = std::ranges::max(next.series[0].x);
         next.series.push_back(
@@ -74,6 +74,7 @@ FigureDrawing prepare_maps(const Scene& scene, const FigureOutput& how, MotionRe
     const auto draw = [=](const Subject& subject, const sim::Result& result) -> Figure {
         std::vector<Panel> panels = impact_maps(subject, result, from, to);
         std::erase_if(panels, [](const Panel& panel) { return panel.series.front().x.empty(); });
+        if (subject.problem.cam->speed == 0) panels.resize(std::min<std::size_t>(panels.size(), 2));  // one phase
         if (panels.empty())
             throw render::PictureError(fmt::format(
                 "figure impact-maps: nothing strikes the cam from {:g} s to {:g} s; raise time.end", from, to));
@@ -116,7 +117,7 @@ FigureDrawing prepare_histograms(const Scene& scene, const FigureOutput& how, Mo
                 speeds.size(), from, to));
         std::vector<Panel> panels = lettered({histogram(axis_label(phrase(lang, "approach speed"), "m/s"), speeds,
                                                         *std::ranges::max_element(speeds), lang),
-                                              histogram(phase_label(lang), phases, 1, lang)});
+                                              histogram(kPhaseLabel, phases, 1, lang)});
         return {.panels = std::move(panels), .aspect = 1.2};
     };
     return figure_of_motion(motion, draw);
@@ -126,13 +127,14 @@ FigureDrawing prepare_histograms(const Scene& scene, const FigureOutput& how, Mo
 
 extern const FigureType kImpactMaps{
     .name = "impact-maps",
-    .title = "Restitution of the impacts, successive collisions, and speeds at impact over the phase of the cam",
+    .title =
+        "Impacts by their approach speed $v$ and the phase $φ$ of the cam: restitution, successive collisions, speeds",
     .refusal = needs_cam,
     .maker = prepare_maps,
     .keys = {"from", "to"}};
 extern const FigureType kImpactHistograms{
     .name = "impact-histograms",
-    .title = "Histograms of the approach speed and of the phase of the cam at impacts",
+    .title = "Histograms of the approach speed and of the phase $φ$ of the cam at impacts",
     .refusal = needs_cam,
     .maker = prepare_histograms,
     .keys = {"from", "to"}};

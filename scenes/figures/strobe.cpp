@@ -1,4 +1,4 @@
-// The mechanism at several instants, or a still picture of it at one, in lines.
+// The mechanism at several instants, in lines.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,25 +19,23 @@ namespace {
 using sim::Vec2;
 
 constexpr int kShownPoses = 9, kPoseStations = 65;
-constexpr int kDigits = 6;  // of the instant of a still
 
 // The cam, and the line to its mark from the centre of a disc, or from the axis.
-void add_outline(const sim::Pose& pose, const sim::Problem& problem, std::optional<render::Color> fill,
-                 render::Color color, double width, Sketch& to, render::Bounds& extent) {
+void add_cam(const sim::Pose& pose, const sim::Problem& problem, render::Color color, Sketch& to,
+             render::Bounds& extent) {
     constexpr int kPoints = 240;
-    const double radius = problem.cam->radius;
+    constexpr double kWidth = 0.9;  // [pt]
     Vec2 from = pose.cam_centre, mark;
     if (problem.cam->profile) {
         std::vector<Vec2> outline = render::placed_outline(problem, pose, kPoints);
         mark = outline.front();
         for (const Vec2 p : outline) extent.add(p);
-        if (fill) to.add({.kind = Sketch::Kind::area, .points = outline, .color = *fill});
-        to.add({.kind = Sketch::Kind::line, .points = std::move(outline), .color = color, .width = width});
+        to.add({.kind = Sketch::Kind::line, .points = std::move(outline), .color = color, .width = kWidth});
     } else {
         from = pose.disc_centre;
-        mark = from + radius * sim::unit(pose.cam_angle);
-        extent.add(from, radius);
-        fill ? to.disc(from, radius, *fill, width) : to.circle(from, radius, color, width);
+        mark = from + problem.cam->radius * sim::unit(pose.cam_angle);
+        extent.add(from, problem.cam->radius);
+        to.circle(from, problem.cam->radius, color, kWidth);
     }
     to.line(from, mark, color, 0.6);
 }
@@ -46,38 +44,7 @@ void add_pose(const sim::Pose& pose, const sim::Problem& problem, render::Color 
               render::Bounds& extent) {
     for (const Vec2 p : pose.centreline) extent.add(p);
     to.add({.kind = Sketch::Kind::line, .points = pose.centreline, .color = color, .width = 1.6});
-    if (problem.cam) add_outline(pose, problem, {}, color, 0.9, to, extent);
-}
-
-// One instant: bodies to scale, and the force between them.
-void add_bodies(const sim::Pose& pose, const sim::Problem& problem, Sketch& to, render::Bounds& extent) {
-    constexpr double kOutline = 0.8;
-    constexpr render::Color kSteel = render::rgb(0xE4E6EB);
-    if (problem.cam) {
-        add_outline(pose, problem, kSteel, Sketch::kInk, kOutline, to, extent);
-    }
-    const render::DrawnBeam beam = render::drawn_beam(problem, pose, 1, beam_depth(problem.beam));
-    std::vector<Vec2> outline;
-    for (std::size_t i = 0; i < beam.line.size(); ++i) outline.push_back(beam.face(i));
-    for (std::size_t i = beam.line.size(); i-- > 0;) outline.push_back(beam.back(i));
-    for (const Vec2 p : outline) extent.add(p);
-    to.add({.kind = Sketch::Kind::area, .points = outline, .color = kSteel});
-    outline.push_back(outline.front());
-    to.add({.kind = Sketch::Kind::line, .points = outline, .color = Sketch::kInk, .width = kOutline});
-    const double hub = std::max(std::abs(problem.hub.radius), render::root_radius(problem));
-    to.disc({0, 0}, hub, kSteel, kOutline);
-    extent.add({0, 0}, hub);
-    if (!pose.nearest || !(pose.nearest->force > 0)) return;
-    // On the beam, from the disc.
-    const Vec2 at = pose.nearest->point, tip = at + 0.2 * problem.beam.length * pose.nearest->normal;
-    extent.add(tip);
-    to.arrow(at, tip, Sketch::kRed, 1);
-    to.add({.kind = Sketch::Kind::label,
-            .points = {tip},
-            .color = Sketch::kRed,
-            .markup = "$F$ = " + render::quantity(pose.nearest->force, "N"),
-            .shift = {-0.4, 0.2},
-            .align = render::HAlign::right});
+    if (problem.cam) add_cam(pose, problem, color, to, extent);
 }
 
 bool is_level(const Vec2& along) { return std::abs(along.x) > 0.5; }
@@ -100,8 +67,7 @@ void add_instant(const sim::Pose& pose, std::string instant, Sketch& to) {
                                     : VAlign::top});
 }
 
-// Writes instants that are equally spaced with the same decimals, exactly if a few are enough, without zeros at the
-// end.
+// Writes instants that are equally spaced with the same decimals, exactly if a few are enough.
 class InstantText {
   public:
     explicit InstantText(const std::vector<sim::Pose>& poses) {
@@ -114,68 +80,71 @@ class InstantText {
         while (decimals_ < few + 3 && !std::ranges::all_of(poses, is_exact)) ++decimals_;
         if (!std::ranges::all_of(poses, is_exact)) decimals_ = few + 2;
     }
-    std::string operator()(const sim::Pose& pose) const {
-        std::string text = render::fixed(pose.t, decimals_);
-        if (decimals_ > 0) text.erase(text.find_last_not_of('0') + 1);
-        if (text.ends_with('.')) text.pop_back();
-        return text + " s";
-    }
+    std::string operator()(const sim::Pose& pose) const { return render::fixed(pose.t, decimals_) + " s"; }
 
   private:
     int decimals_ = 0;
 };
 
-// First and last, in one label where two would overlap.
+// The last one, the first, and those between that stand clear of the labels before.
 void label_instants(const std::vector<sim::Pose>& poses, Sketch& to) {
-    if (poses.size() == 1) return add_instant(poses.front(), number(poses.front().t, kDigits) + " s", to);
+    constexpr double kWidth = 0.25, kHeight = 0.07;  // of the largest label, in lengths of the beam
     const InstantText text_of(poses);
-    const sim::Pose &first = poses.front(), &last = poses.back();
-    constexpr double kHeight = 0.05, kWidth = 0.15;  // about those of a label; level beams have labels below each other
-    const double room = is_level(sim::unit(first.theta)) ? kHeight : kWidth;
-    const bool joined = std::abs(std::remainder(last.theta - first.theta, 2 * std::numbers::pi)) <= room;
-    add_instant(first, joined ? text_of(first) + ", " + text_of(last) : text_of(first), to);
-    if (!joined) add_instant(last, text_of(last), to);
+    const double length = norm(poses.front().centreline.back());
+    std::vector<const sim::Pose*> order{&poses.back()}, labelled;
+    for (std::size_t k = 0; k + 1 < poses.size(); ++k) order.push_back(&poses[k]);
+    for (const sim::Pose* pose : order) {
+        const auto is_near = [&](const sim::Pose* other) {
+            const Vec2 way = other->centreline.back() - pose->centreline.back();
+            return std::abs(way.x) < kWidth * length && std::abs(way.y) < kHeight * length;
+        };
+        if (std::ranges::any_of(labelled, is_near)) continue;
+        labelled.push_back(pose);
+        add_instant(*pose, text_of(*pose), to);
+    }
+}
+
+// A length of 1, 2 or 5 times a power of ten, about a fifth of the beam's, below the drawing.
+void add_scale(const sim::Problem& problem, render::Bounds& extent, Sketch& to) {
+    const double length = render::round_down_125(problem.beam.length / 5);
+    const double y = extent.y0 - 0.14 * problem.beam.length, tick = 0.012 * problem.beam.length;
+    extent.add({extent.x0, y});
+    const Vec2 a{extent.x0, y}, b{extent.x0 + length, y};
+    to.line(a, b, Sketch::kInk, 0.8);
+    for (const Vec2 end : {a, b}) to.line(end - Vec2{0, tick}, end + Vec2{0, tick}, Sketch::kInk, 0.8);
+    to.add({.kind = Sketch::Kind::label,
+            .points = {b},
+            .color = Sketch::kInk,
+            .markup = render::quantity(length, "m"),
+            .shift = {0.4, 0},
+            .align = render::HAlign::left});
 }
 
 Panel strobe_panel(const std::vector<sim::Pose>& poses, const sim::Problem& problem, render::Bounds& extent) {
     Sketch sketch;
-    const bool one = poses.size() == 1;
-    if (one) add_bodies(poses.front(), problem, sketch, extent);
-    for (std::size_t k = 0; k < poses.size() && !one; ++k) {
+    const double hub = std::max(std::abs(problem.hub.radius), render::root_radius(problem));
+    for (std::size_t k = 0; k < poses.size(); ++k) {
         const double share = 0.15 + 0.85 * static_cast<double>(k) / static_cast<double>(poses.size() - 1);
         add_pose(poses[k], problem, render::figure::map_color(share), sketch, extent);
     }
-    sketch.dot({0, 0}, Sketch::kInk, 2);
-    if (problem.hub.radius > 0 && !one) sketch.circle({0, 0}, problem.hub.radius, Sketch::kInk, 0.9);
+    extent.add({0, 0}, hub);
+    sketch.disc({0, 0}, hub, Sketch::kSteel, 0.8);
+    sketch.dot({0, 0}, Sketch::kInk, 1.2);
     if (problem.cam) sketch.dot(problem.cam->centre);
     label_instants(poses, sketch);
+    add_scale(problem, extent, sketch);
     return {.shapes = sketch.take()};
 }
 
-// At the instant of a touch the gap is zero but for rounding, and so is the force.
-void drop_rounding(sim::Pose& pose, const sim::Problem& problem, const sim::Result& result) {
-    constexpr double kForceRounding = 1e-9;  // of the largest force, which is at least the weight
-    double largest = problem.beam.line_density() * problem.beam.length * std::abs(problem.gravity);
-    for (const sim::Impact& impact : result.impacts) largest = std::max(largest, impact.force_peak.value_or(0));
-    if (pose.nearest && pose.nearest->force < kForceRounding * largest) pose.nearest->force = 0;
-}
-
 FigureDrawing prepare_strobe(const Scene& scene, const FigureOutput& how, MotionRequests& requests) {
-    const bool one = how.series.to && *how.series.to == how.series.from;
-    const ShownPoses shown = request_poses(scene, how, one ? 2 : kShownPoses, kPoseStations, requests);
+    const ShownPoses shown = request_poses(scene, how, kShownPoses, kPoseStations, requests);
     const auto draw = [=](const Subject& subject, const sim::Result& result) -> Figure {
-        std::vector<sim::Pose> poses = result.poses[shown.poses];
-        if (one) poses.resize(1);
-        for (sim::Pose& pose : poses) drop_rounding(pose, subject.problem, result);
         render::Bounds extent;
-        Panel panel = strobe_panel(poses, subject.problem, extent);
+        Panel panel = strobe_panel(result.poses[shown.poses], subject.problem, extent);
         // The shapes with a margin and room for labels.
         const double aspect =
             std::clamp(0.1 + 0.85 * (extent.y1 - extent.y0) / std::max(extent.x1 - extent.x0, 1e-12), 0.3, 1.1);
-        return {
-            .title = one ? fmt::format("The mechanism at {} s, deflection to scale", number(shown.from, kDigits)) : "",
-            .panels = {std::move(panel)},
-            .aspect = aspect};
+        return {.panels = {std::move(panel)}, .aspect = aspect};
     };
     return figure_of_motion(shown.motion, draw);
 }
@@ -187,6 +156,6 @@ extern const FigureType kStrobe{
     .title = "The mechanism at equally spaced instants, from pale to dark, deflection to scale",
     .refusal = no_refusal,
     .maker = prepare_strobe,
-    .keys = {"from", "to", "at"}};
+    .keys = {"from", "to"}};
 
 }  // namespace beamcam::scenes

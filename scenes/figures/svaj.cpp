@@ -66,7 +66,8 @@ Figure svaj_figure(const Subject& subject, const sim::Result* result, std::size_
         Series curve{.label = phrase(lang, "straight lever"), .name = names[panels.size()]};
         const double factor = panels.empty() ? angle.factor : 1;
         for (const sim::Lever::State& s : states) curve.add(s.phi * kDegrees, s.motion.*quantity * factor);
-        panels.push_back({.x = {.label = "$φ$ / °", .from = 0, .to = 360, .tight = true},
+        panels.push_back({.title = phrase(lang, names[panels.size()]),
+                          .x = {.label = "$φ$ / °", .from = 0, .to = 360, .tight = true},
                           .y = {.label = label},
                           .series = {std::move(curve)},
                           .legend = result && panels.empty(),

@@ -35,10 +35,9 @@ void require_one_unit(ObjectReader& r, const char* key, const std::vector<sim::C
 void check_interval(ObjectReader& r, const FigureOutput& figure) {
     const SeriesKeys& series = figure.series;
     if (series.to) check_end(r, "to", *series.to);
-    if (series.at && series.at->kind == Instant::Kind::time) check_end(r, "at", series.at->t);
-    if (series.needs_events() || series.at) return;
+    if (series.needs_events()) return;
     const double end = series.to.value_or(r.context().scene.end_time);
-    if (!(series.from < end || (figure.figure == "strobe" && series.to && series.from == end)))
+    if (!(series.from < end))
         r.reject("from", " = {} s is not before the end, {} s; reduce it, or increase \"to\"", series.from, end);
 }
 

@@ -94,17 +94,11 @@ static void visit_abscissa(SceneVisitor& v, SeriesKeys& series, const KeyOfFigur
 
 // The part of the motion.
 static void visit_interval(SceneVisitor& v, SeriesKeys& series, const KeyOfFigure& key) {
-    const auto bound = [&](const char* name) { return series.at ? sim::written_if(false, name) : key(name); };
-    v.value(bound("from"), bound_format(series.from, series.from_event),
+    v.value(key("from"), bound_format(series.from, series.from_event),
             fmt::format("In {}: first instant. Events are those of the first motion of the figure.",
                         list_of_figures_with("from"))
                 .c_str());
-    v.value(bound("to"), bound_format(series.to, series.to_event), "Last instant; by default the end of the scene.");
-    v.value(key("at"), instant_format(series.at),
-            "In \"strobe\", in place of \"from\" and \"to\": the only instant of the figure, a line drawing for print "
-            "with the bodies to scale and the contact force.");
-    v.exclusive("at", "from");
-    v.exclusive("at", "to");
+    v.value(key("to"), bound_format(series.to, series.to_event), "Last instant; by default the end of the scene.");
 }
 
 // The keys of the figure "series"; the other figures have some of them.
@@ -132,8 +126,9 @@ static void visit_series(SceneVisitor& v, SeriesKeys& series, const std::string&
     List notes = SceneVisitor::items_of(series.notes);
     notes.max_size = 12, notes.of = "notes", notes.example = "[{\"at\": \"impact:1\", \"text\": \"first touch\"}]";
     v.list(key("notes"), notes, "In \"series\": vertical lines with a text.");
-    v.list(key("compare"), compared_motions(series.compare),
-           "In \"series\": the motions of the figure, as in pictures.");
+    List motions = compared_motions(series.compare);
+    motions.min_size = 1;
+    v.list(key("compare"), motions, "In \"series\": the motions of the figure, as in pictures.");
     v.choice(key("comparison"), series.apart, {{false, "overlay"}, {true, "panels"}},
              "In \"series\": overlay: all motions in each panel; panels: separate panels for each motion, with equal "
              "scales.");

@@ -52,8 +52,8 @@ void visit_frames(SceneVisitor& v, PictureOutput& p) {
 }
 
 void visit_still(SceneVisitor& v, PictureOutput& p) {
-    visit_file(v, p.file, {".png"}, ".png", "Name of the file",
-               " For a line drawing for print use the figure \"strobe\" with \"at\".");
+    visit_file(v, p.file, {".png", ".pdf", ".svg"}, ".png", "Name of the file",
+               " .pdf and .svg are vector graphics; solid bodies are an image in them, \"flat\" ones are not.");
     visit_picture(v, p);
     v.value(required("at", "\"370 ms\""), instant_format(p.at), "The instant of the picture.");
     v.check([&p](ObjectReader& r) {

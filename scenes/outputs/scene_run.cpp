@@ -13,6 +13,7 @@
 #include "render/base/error.hpp"
 #include "render/base/limits.hpp"
 #include "render/film/page.hpp"
+#include "render/plot/user_text.hpp"
 #include "scenes/figures/figure_files.hpp"
 #include "scenes/outputs/film_setup.hpp"
 #include "scenes/outputs/picture_sinks.hpp"
@@ -223,7 +224,7 @@ void SceneRun::write_pictures(const PlannedPictures& p) {
     const std::size_t first = p.motions.front();
     const std::string accuracy = accuracy_note(plan_.motions[first].problem, results_[first]);
     render::FilmSetup setup = film_setup(plan_, p, scene_, results_);
-    if (p.kind == PlannedPictures::Kind::page) return write_page(p, render::html_page(setup));
+    if (p.kind == PlannedPictures::Kind::page) return write_whole(p, render::html_page(setup));
     const SinkFiles to{scene_, files_, context_, accuracy};
     render::Film film(std::move(setup));
     if (const auto requested = p.view.exaggeration; requested && film.exaggeration_reduced())
@@ -246,11 +247,22 @@ void SceneRun::write_pictures(const PlannedPictures& p) {
         context_.print(
             "warning: the mechanism is outside the picture in {1} of {2} of {0}; change \"follow\" or \"zoom\"\n",
             p.file, empty, counted(film.frames(), "frame"));
+    if (p.kind == PlannedPictures::Kind::still && ending_of(p.file) != ".png") return write_drawing(p, film, accuracy);
     const auto sink = p.kind == PlannedPictures::Kind::video ? make_video_sink(p, film, to) : make_png_sink(p, to);
     draw(p, film, *sink, context_);
 }
 
-void SceneRun::write_page(const PlannedPictures& p, const std::string& bytes) {
+void SceneRun::write_drawing(const PlannedPictures& p, render::Film& film, const std::string& accuracy) {
+    const auto medium = ending_of(p.file) == ".pdf" ? render::Medium::pdf : render::Medium::svg;
+    const auto start = Clock::now();
+    const std::string bytes = film.draw(static_cast<int>(p.draw.front()), medium,
+                                        document_of(render::plain_text(scene_.title), accuracy, metadata_json(scene_)));
+    context_.times.draw += seconds_since(start);
+    ++context_.work.frames_drawn;
+    write_whole(p, bytes);
+}
+
+void SceneRun::write_whole(const PlannedPictures& p, const std::string& bytes) {
     const fs::path file = files_.path_of(p.file);
     output::write_file(files_.target(file, p.output), bytes);
     files_.wrote(file, fmt::format("{:.0f} kB", static_cast<double>(bytes.size()) / 1000));

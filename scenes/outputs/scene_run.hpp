@@ -44,7 +44,8 @@ class SceneRun {
     void write_data_file(const DataFile& data);
     void write_figure(std::size_t figure);
     void write_pictures(const PlannedPictures& p);
-    void write_page(const PlannedPictures& p, const std::string& bytes);
+    void write_drawing(const PlannedPictures& p, render::Film& film, const std::string& accuracy);
+    void write_whole(const PlannedPictures& p, const std::string& bytes);
     void warn_of_omissions(const PlannedPictures& p) const;
     void attempt(std::size_t output, const std::function<void()>& work);
     void reject(std::size_t output, const std::string& why);

@@ -88,8 +88,8 @@ sim::Result run(const Search& search, double scene_end, const sim::Problem& prob
 
 Search search_of(const FigureOutput& how, const Scene& scene) {
     const SeriesKeys& keys = how.series;
-    Search search{.until = keys.to.value_or(scene.end_time), .whole = !keys.to_event && !keys.at};
-    search.bounds = {keys.from_event, keys.to_event, keys.at};
+    Search search{.until = keys.to.value_or(scene.end_time), .whole = !keys.to_event};
+    search.bounds = {keys.from_event, keys.to_event};
     return search;
 }
 
@@ -100,10 +100,8 @@ FigureOutput with_times_of(FigureOutput how, const sim::Result& motion, double e
     };
     const auto from_event = how.series.from_event, to_event = how.series.to_event;
     SeriesKeys series = with_times(std::move(how.series), motion);
-    if (const auto at = std::exchange(series.at, {}))
-        series.from = at->kind == Instant::Kind::last ? end_time : instant_of(*at, motion), series.to = series.from;
     const double end = series.to.value_or(end_time);
-    if (!(series.from < end) && !(how.figure == "strobe" && series.from == end))
+    if (!(series.from < end))
         throw render::PictureError(fmt::format("figure {}: \"from\" = {} is not before \"to\" = {}", how.figure,
                                                text(from_event, series.from), text(to_event, end)));
     how.series = std::move(series);

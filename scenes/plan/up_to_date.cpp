@@ -48,14 +48,13 @@ std::string part_of(const Output& output, const Shard& shard) {
 // The end of the motion on which an output depends [s]; 0 if its own keys say where it ends.
 double end_of_inputs(const Output& output, const Scene& scene) {
     const auto unless = [&](bool by_own_keys) { return by_own_keys ? 0 : scene.end_time; };
-    const auto is_time = [](const Instant& at) { return at.kind == Instant::Kind::time; };
     if (std::holds_alternative<ImpactsOutput>(output) || std::holds_alternative<SummaryOutput>(output))
         return run_end(scene);
     if (const auto* table = std::get_if<TrajectoryOutput>(&output)) return unless(!table->times.empty());
     if (const auto* p = std::get_if<PictureOutput>(&output))
-        return unless(p->kind == PictureOutput::Kind::still ? is_time(p->at) : p->span.to.has_value());
-    if (const auto* figure = std::get_if<FigureOutput>(&output))
-        return unless(figure->series.to || (figure->series.at && is_time(*figure->series.at)));
+        return unless(p->kind == PictureOutput::Kind::still ? p->at.kind == Instant::Kind::time
+                                                            : p->span.to.has_value());
+    if (const auto* figure = std::get_if<FigureOutput>(&output)) return unless(figure->series.to.has_value());
     return scene.end_time;
 }
 

@@ -144,7 +144,6 @@ struct SeriesKeys {
     double from = 0;                                        // [s]
     std::optional<double> to = {};                          // [s]; nullopt: the end of the scene
     std::optional<Instant> from_event = {}, to_event = {};  // in place of `from` and `to`
-    std::optional<Instant> at = {};                         // of a strobe: the only instant, in place of both
     std::vector<Compared> compare = {};                     // empty: only the motion of the scene
     bool apart = false;                                     // separate panels for each of them
     bool impacts = false;                                   // lines at the beginnings of impacts
@@ -154,7 +153,7 @@ struct SeriesKeys {
     std::vector<SeriesNote> notes = {};
     std::optional<double> window = {}, highest = {};  // of a spectrogram [s], [Hz]; nullopt: suits the motion
 
-    bool needs_events() const { return from_event || to_event || (at && at->is_event()); }
+    bool needs_events() const { return from_event || to_event; }
 };
 inline constexpr std::initializer_list<const char*> kFigureEndings{".pdf", ".svg", ".png"};
 struct FigureOutput {

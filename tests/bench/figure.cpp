@@ -56,11 +56,11 @@ double cpu_now() {
 }
 
 // Bytes of the file, or of the pixels. A file is kept when `keep` names one.
-std::size_t draw(const figure::Figure& f, figure::Medium medium, const Fonts& fonts, const std::string& keep) {
+std::size_t draw(const figure::Figure& f, Medium medium, const Fonts& fonts, const std::string& keep) {
     const figure::Page page = figure::page_of(f, *figure::column_named("elsevier"));
     figure::PageCanvas sheet(medium, {figure::points(page.width), figure::points(page.height), 600}, fonts);
     figure::draw(f, page, sheet);
-    if (medium == figure::Medium::png) return 4 * sheet.image().pixels.size();
+    if (medium == Medium::png) return 4 * sheet.image().pixels.size();
     const std::string bytes = sheet.bytes();
     if (!keep.empty()) std::ofstream(keep, std::ios::binary) << bytes;
     return bytes.size();
@@ -75,8 +75,8 @@ int main(int count, char** words) {
     fmt::print("points,curve,medium,ms,bytes\n");
     for (const char* curve : kCurves) {
         const figure::Figure f = million(curve, points);
-        for (const auto& [medium, name] : {std::pair{figure::Medium::pdf, "pdf"}, std::pair{figure::Medium::svg, "svg"},
-                                           std::pair{figure::Medium::png, "png"}}) {
+        for (const auto& [medium, name] :
+             {std::pair{Medium::pdf, "pdf"}, std::pair{Medium::svg, "svg"}, std::pair{Medium::png, "png"}}) {
             std::array<double, 5> ms;
             std::size_t bytes = 0;
             for (double& one : ms) {

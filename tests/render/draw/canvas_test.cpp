@@ -57,11 +57,11 @@ TEST(Canvas, AnErrorOnTheWayIsTheOneThatIsReported) {
 }
 
 TEST(PageCanvas, AFigureThatCairoGaveUpIsAnError) {
-    for (const auto medium : {figure::Medium::png, figure::Medium::pdf, figure::Medium::svg}) {
+    for (const auto medium : {Medium::png, Medium::pdf, Medium::svg}) {
         const auto draw = [&](bool whole) {
             figure::PageCanvas sheet(medium, {100, 100, 72}, fonts());
             give_up(sheet);
-            if (whole) medium == figure::Medium::png ? void(sheet.image()) : void(sheet.bytes());
+            if (whole) medium == Medium::png ? void(sheet.image()) : void(sheet.bytes());
         };
         EXPECT_THROW(draw(true), std::runtime_error);
         EXPECT_THROW(draw(false), std::runtime_error);

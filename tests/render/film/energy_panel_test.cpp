@@ -22,7 +22,7 @@ std::uint32_t pixel_of(const Color& c) {
 
 TEST(Energy, LossesThatNobodyHasLeaveTheOthers) {
     const auto ledger = [](double nothing) {
-        FilmSetup setup = test::flat_film({.duration = 0.3, .cam = false}, 960, 540);
+        FilmSetup setup = test::flat_film({.duration = 0.3, .cam = false}, 1920, 1080);  // rows of 1 % of the chart
         const std::size_t rows = setup.chart.values[0].size();
         for (const auto& [kind, value] : {std::pair{ChannelKind::energy_kinetic, 1.0},
                                           {ChannelKind::loss_structural, 2.0},
@@ -43,7 +43,7 @@ TEST(Energy, LossesThatNobodyHasLeaveTheOthers) {
 // stacked on zero.
 TEST(Energy, PotentialIsThatOfTheTrajectory) {
     const auto chart = [](double potential, double kinetic) {
-        FilmSetup setup = test::flat_film({.duration = 0.3, .cam = false}, 960, 540);
+        FilmSetup setup = test::flat_film({.duration = 0.3, .cam = false}, 1920, 1080);  // rows of 1 % of the chart
         const std::size_t rows = setup.chart.values[0].size();
         for (const auto& [kind, value] : {std::pair{ChannelKind::energy_kinetic, kinetic},
                                           {ChannelKind::energy_potential, potential},

@@ -375,5 +375,24 @@ TEST(Fonts, ComeAndGoOnManyThreads) {
     }
 }
 
+// ---- vector graphics ---------------------------------------------------------------------------
+
+// A flat frame has no image in it, not even of the past of its charts.
+TEST(Films, AFrameAsVectorGraphicsHasImagesOfSolidBodiesAlone) {
+    const auto svg = [](Style style) {
+        FilmSetup setup = test::flat_film({.duration = 0.3}, 960, 540);
+        setup.view.style = style;
+        Film film(std::move(setup));
+        const Document document{.title = "a & b", .subject = {}, .scene = "{}", .creator = "beamcam"};
+        const std::string first = film.draw(10, Medium::svg, document);
+        EXPECT_EQ(film.draw(10, Medium::svg, document), first);
+        EXPECT_TRUE(film.draw(10, Medium::pdf, document).starts_with("%PDF"));
+        EXPECT_NE(first.find("<title>a &amp; b</title>"), std::string::npos);
+        return first;
+    };
+    EXPECT_EQ(svg(Style::flat).find("<image"), std::string::npos);
+    EXPECT_NE(svg(Style::lit).find("<image"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace beamcam::render

@@ -62,7 +62,7 @@ FilmSetup visible_film_of(Style style) {
     return setup;
 }
 
-// A film shows the word in slow motion only, and where the line is above a bent beam.
+// A film shows the word in slow motion only, and where a rising line is above a bent beam.
 TEST(MechanismMarks, TheBaseLineIsNamedWhereThereIsTimeToReadIt) {
     const auto words = [](double speed, double bend) {
         FilmSetup setup = visible_film_of(Style::flat);

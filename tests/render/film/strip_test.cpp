@@ -295,7 +295,10 @@ TEST(Unreliable, CurvesArePalerWithinTheIntervals) {
     Film plain(setup);
     setup.unreliable = {{0.2, 0.4}};
     Film film(setup);
-    EXPECT_EQ(drawn(film, 11), drawn(plain, 11));  // not yet
+    const Image early = drawn(film, 11), early_plain = drawn(plain, 11);
+    int changed = 0;
+    for (std::size_t i = 0; i < early.pixels.size(); ++i) changed += early.pixels[i] != early_plain.pixels[i];
+    EXPECT_LE(changed, 3);  // not yet: the round end of the piece that begins later
     const Image now = drawn(film, 47), before = drawn(plain, 47);
     int left = now.width, right = 0;
     for (int y = 0; y < now.height; ++y)

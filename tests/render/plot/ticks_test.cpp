@@ -57,12 +57,13 @@ TEST(Ticks, NegativeNumbersHaveATrueMinusAndZeroHasNone) {
 }
 
 TEST(Quantity, ChoosesTheSiPrefix) {
-    EXPECT_EQ(reading(1.9e6, "N"), "1.90\u00A0MN");  // beside 2.95 MN
-    EXPECT_EQ(reading(2.95e6, "N"), "2.95\u00A0MN");
-    EXPECT_EQ(reading(100, "N"), "100\u00A0N");
-    EXPECT_EQ(reading(-12, "N"), "−12.0\u00A0N");
-    EXPECT_EQ(reading(999.7, "N"), "1000\u00A0N");
-    EXPECT_EQ(reading(0, "N"), "0\u00A0N");
+    EXPECT_EQ(reading(1.9e6, {"M", 1e6}, "N"), "1.90\u00A0MN");  // beside 2.95 MN
+    EXPECT_EQ(reading(2.95e6, {"M", 1e6}, "N"), "2.95\u00A0MN");
+    EXPECT_EQ(reading(100, {"", 1}, "N"), "100\u00A0N");
+    EXPECT_EQ(reading(-12, {"", 1}, "N"), "−12.0\u00A0N");
+    EXPECT_EQ(reading(999.7, {"", 1}, "N"), "1000\u00A0N");
+    EXPECT_EQ(reading(126, {"k", 1e3}, "N"), "0.126\u00A0kN");  // beside 1.30 kN
+    EXPECT_EQ(reading(0, {"", 1}, "N"), "0\u00A0N");
     EXPECT_EQ(quantity(0.02, "m"), "20\u00A0mm");
     EXPECT_EQ(quantity(1, "m"), "1\u00A0m");
     EXPECT_EQ(quantity(100, "m"), "100\u00A0m");

@@ -37,8 +37,8 @@ TEST(Figures, SchematicAndDeflectionIntegrateNothing) {
 }
 
 TEST(Figures, ShareOneSimulationWithEachOtherAndWithTables) {
-    const Scene scene =
-        scene_from(R"({"outputs": [{"type": "figure", "figure": "energy"}, {"type": "figure", "figure": "phase"},
+    const Scene scene = scene_from(R"({"outputs": [{"type": "figure", "figure": "energy"},
+        {"type": "figure", "channels": ["theta_dot"], "x": "theta", "horizon": false},
         {"type": "figure", "figure": "angle"}, {"type": "trajectory"}]})");
     const Plan p = plan(resolve(scene, {}));
     ASSERT_EQ(p.motions.size(), 4u);

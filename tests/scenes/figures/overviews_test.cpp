@@ -64,35 +64,12 @@ TEST(Overviews, AStrobeWritesItsInstantsExactly) {
     constexpr double kApart = 0.27 / 8;  // 0.03375 s
     int labels = 0;
     for (const render::figure::Shape& shape : figure.panels.at(0).shapes)
-        if (shape.kind == render::figure::Shape::Kind::label) {
+        if (shape.kind == render::figure::Shape::Kind::label && shape.markup.ends_with(" s")) {
             const double k = std::stod(shape.markup) / kApart;
             EXPECT_NEAR(k, std::round(k), 1e-9) << shape.markup;
             ++labels;
         }
-    EXPECT_EQ(labels, 2);
-}
-
-TEST(Overviews, AStillOfLinesIsAStrobeOfOneInstant) {
-    const Folder folder;
-    folder.write("s.json", R"({"time": {"end": 0.4}})");
-    for (const char* file : {"a.pdf", "a.svg"})
-        ASSERT_EQ(shell(folder, fmt::format("$BEAMCAM render s.json --at impact:1 -o {}", file)).code, 0) << file;
-    EXPECT_THAT(testing::slurp((folder / "a.pdf").string()), StartsWith("%PDF"));
-    // At a touch the force is zero, within the contact an arrow and a label show it.
-    const auto shows_force = [&](const char* file) {
-        return testing::slurp((folder / file).string()).find("rgb(83.529412%,36.862745%,0%)") != std::string::npos;
-    };
-    ASSERT_EQ(shell(folder, "$BEAMCAM figure s.json strobe --at '281.5 ms' -o force.svg --caption c.txt").code, 0);
-    EXPECT_THAT(testing::slurp(folder / "c.txt"), HasSubstr("0.2815 s"));
-    EXPECT_TRUE(shows_force("force.svg"));
-    EXPECT_FALSE(shows_force("a.svg"));
-    ASSERT_EQ(shell(folder, "$BEAMCAM figure s.json strobe --at impact:1 -o b.svg").code, 0);
-    EXPECT_EQ(testing::slurp(folder / "a.svg"), testing::slurp(folder / "b.svg"));
-    ASSERT_EQ(shell(folder, "$BEAMCAM figure s.json --at impact:1 -o c.svg").code, 0);  // needs no name
-    EXPECT_EQ(testing::slurp(folder / "a.svg"), testing::slurp(folder / "c.svg"));
-    for (const char* wrong : {"-o a.pdf", "--at 0.3 -o a.pdf --size 640x360", "--at 0.3 -o a.pdf --style lit",
-                              "s.json --at 0.3 -o a.pdf", "--at 0.3 --speed 0.1 -o a.pdf"})
-        EXPECT_EQ(shell(folder, fmt::format("$BEAMCAM render s.json {}", wrong)).code, 2) << wrong;
+    EXPECT_GE(labels, 2);
 }
 
 Plan resolved_plan(const Scene& scene, const RejectOutput& reject = {}) {
@@ -105,8 +82,8 @@ Plan resolved_plan(const Scene& scene, const RejectOutput& reject = {}) {
 TEST(Stretch, BeginsAndEndsAtEventsOfTheFirstMotion) {
     const Reading reading = testing::read(R"({"time": {"end": 1}, "outputs": [
         {"type": "figure", "figure": "series", "channels": ["theta"], "from": "touch", "to": "apex:1"},
-        {"type": "figure", "figure": "strobe", "at": "release"},
-        {"type": "figure", "figure": "strobe", "at": "last", "file": "end.pdf"},
+        {"type": "figure", "figure": "strobe", "to": "release"},
+        {"type": "figure", "figure": "strobe", "to": "last", "file": "end.pdf"},
         {"type": "figure", "figure": "series", "channels": ["theta"], "from": "collision:1", "file": "two.pdf",
          "compare": [{"label": "higher", "set": {"initial.angle": "50 deg"}}, {"label": "own"}]}]})");
     ASSERT_TRUE(reading.scene) << reading.report();
@@ -141,7 +118,7 @@ TEST(Stretch, BeginsAndEndsAtEventsOfTheFirstMotion) {
 
 TEST(Stretch, OfAnEventThatDoesNotOccurIsRejectedAlone) {
     const Reading reading = testing::read(R"({"time": {"end": 0.4}, "outputs": [
-        {"type": "figure", "figure": "strobe", "at": "impact:7", "file": "a.pdf"},
+        {"type": "figure", "figure": "strobe", "to": "impact:7", "file": "a.pdf"},
         {"type": "figure", "figure": "kymograph", "from": "release", "to": "touch", "file": "b.pdf"},
         {"type": "figure", "figure": "kymograph", "from": "touch", "file": "c.pdf"}]})");
     ASSERT_TRUE(reading.scene) << reading.report();
@@ -154,16 +131,11 @@ TEST(Stretch, OfAnEventThatDoesNotOccurIsRejectedAlone) {
     ASSERT_EQ(why.size(), 2u);
     EXPECT_THAT(why[0], HasSubstr("0: impact 7 does not occur: the motion has 1 of them until 0.4 s"));
     EXPECT_THAT(why[1], HasSubstr("1: figure kymograph: \"from\" = release 1 at 0.28"));
-    const auto report = [](const std::string& keys) {
-        return testing::read(R"({"outputs": [{"type": "figure", )" + keys + "}]}").report();
-    };
-    EXPECT_THAT(report(R"("figure": "strobe", "at": "touch", "to": 1)"), HasSubstr("has both \"at\" and \"to\""));
-    EXPECT_THAT(report(R"("figure": "kymograph", "at": "touch")"), HasSubstr("belongs to the figure \"strobe\""));
 }
 
 TEST(Stretch, OfEventsReadsBackAsItWasWritten) {
     const Reading reading = testing::read(R"({"outputs": [
-        {"type": "figure", "figure": "strobe", "at": "collision:2"},
+        {"type": "figure", "figure": "strobe", "to": "collision:2"},
         {"type": "figure", "figure": "kymograph", "from": "touch", "to": "apex:3"}]})");
     ASSERT_TRUE(reading.scene) << reading.report();
     const std::string text = to_json(*reading.scene);
@@ -210,7 +182,7 @@ TEST(Stretch, ThatEndsAtAnEventIsIntegratedNoFurther) {
             searched),
         second);
     // The apex of a rebound is known when it is over.
-    EXPECT_LT(ends(R"({"type": "figure", "figure": "strobe", "at": "apex:1"})", searched), second);
+    EXPECT_LT(ends(R"({"type": "figure", "figure": "strobe", "to": "apex:1"})", searched), second);
     EXPECT_EQ(searched, second);
     // An output that shows all impacts, or the end, needs the whole motion.
     EXPECT_EQ(ends(std::string(kFigure) + R"(, {"type": "video", "speed": "impacts"})", searched), 2);
@@ -295,22 +267,23 @@ TEST(Overviews, HistogramsCountEachImpactOnce) {
 std::vector<render::figure::PageCanvas::Written> instants_on(const render::figure::Figure& figure, const char* column) {
     const auto page = page_of(figure, *render::figure::column_named(column));
     const render::Fonts fonts(false, render::Typefaces::print);
-    render::figure::PageCanvas sheet(render::figure::Medium::png,
-                                     {render::figure::points(page.width), render::figure::points(page.height), 72},
-                                     fonts);
+    render::figure::PageCanvas sheet(
+        render::Medium::png, {render::figure::points(page.width), render::figure::points(page.height), 72}, fonts);
     draw(figure, page, sheet);
     std::erase_if(sheet.written, [](const auto& text) { return !text.markup.ends_with(" s"); });
     return sheet.written;
 }
 
-TEST(Overviews, AStrobeNamesTheFirstAndTheLastInstant) {
+TEST(Overviews, AStrobeNamesTheInstantsThatHaveRoom) {
     const auto labels = [](const render::figure::Figure& figure) {
         std::vector<std::string> out;
         for (const auto& text : instants_on(figure, "aps")) out.push_back(text.markup);
         return out;
     };
-    EXPECT_THAT(labels(overview_of("strobe", R"(, "to": 0.25)")), ::testing::ElementsAre("0 s", "0.25 s"));
-    EXPECT_THAT(labels(overview_of("strobe", R"(, "to": 0.05)")), ::testing::ElementsAre("0 s, 0.05 s"));
+    const std::vector<std::string> fall = labels(overview_of("strobe", R"(, "to": 0.25)"));
+    EXPECT_GE(fall.size(), 4u);
+    EXPECT_THAT(fall, ::testing::IsSupersetOf({"0.00000 s", "0.25000 s"}));
+    EXPECT_THAT(labels(overview_of("strobe", R"(, "to": 0.05)")), ::testing::ElementsAre("0.05000 s"));
 }
 
 // Near the top, labels side by side need more room than their height.
@@ -331,19 +304,11 @@ TEST(Overviews, LabelsOfAStrobeKeepApart) {
         }
 }
 
-TEST(Overviews, AStrobeShowsTheMechanismAtSeveralInstantsOrAtOne) {
-    const auto beams = [](const render::figure::Figure& figure) {
-        return std::ranges::count_if(figure.panels[0].shapes, [](const auto& s) { return s.points.size() > 2; });
-    };
-    EXPECT_EQ(beams(overview_of("strobe", "")), 9);
-    const auto one = overview_of("strobe", R"(, "from": 0.28, "to": 0.28)");
-    EXPECT_EQ(beams(one), 2);  // its body and the outline of that
-    EXPECT_THAT(one.title, HasSubstr("The mechanism at 0.28 s"));
-    // In contact: a force that leads from the disc into the beam.
-    const auto force =
-        std::ranges::find(one.panels[0].shapes, render::figure::Shape::Kind::arrow, &render::figure::Shape::kind);
-    ASSERT_NE(force, one.panels[0].shapes.end());
-    EXPECT_GT(force->points[1].y, force->points[0].y);
+TEST(Overviews, AStrobeShowsNineInstantsAndALength) {
+    const render::figure::Figure figure = overview_of("strobe", "");
+    const auto& shapes = figure.panels[0].shapes;
+    EXPECT_EQ(std::ranges::count_if(shapes, [](const auto& s) { return s.points.size() > 2; }), 9);  // beams
+    EXPECT_THAT(shapes.back().markup, HasSubstr("mm"));
 }
 
 TEST(Overviews, MapsHaveAPointForEachImpact) {

@@ -78,7 +78,7 @@ Drawn drawn(const Scene& scene, const FigureOutput& how) {
     const plot::Page page = plot::page_of(figure, *plot::column_named(how.column));
     const render::Fonts fonts(plot::needs_chinese(figure), render::Typefaces::print);
     const double w = plot::points(page.width), h = plot::points(page.height);
-    plot::PageCanvas sheet(plot::Medium::png, {w, h, kDpi}, fonts);
+    plot::PageCanvas sheet(render::Medium::png, {w, h, kDpi}, fonts);
     plot::draw(figure, page, sheet);
     return {sheet.written, sheet.image(), {0, 0, w, h}, figure.panels.front().shapes.empty()};
 }
@@ -88,7 +88,7 @@ struct Ink {
     int coloured = 0, dark = 0, all = 0;
 };
 Ink ink(const render::Image& image, const render::Box& box) {
-    constexpr double kScale = kDpi / plot::kPointsPerInch;
+    constexpr double kScale = kDpi / render::kPointsPerInch;
     constexpr unsigned kPlain = 80, kDark = 110;  // of 255: between the channels of a colour; the lightest channel
     const auto from = [](double edge) { return std::max(0, static_cast<int>(edge * kScale)); };
     Ink out;

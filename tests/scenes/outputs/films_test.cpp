@@ -162,6 +162,24 @@ TEST(Films, AnEventThatDoesNotHappenIsRefusedWithTheCount) {
     EXPECT_THAT(shell(folder, "$BEAMCAM render s.json -o x.png --at peek:1").err, HasSubstr("impact:N, release:N"));
 }
 
+TEST(Films, AStillMayBeVectorGraphics) {
+    SKIP_UNDER_SANITIZERS();
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.4}, "outputs": [
+        {"type": "still", "file": "of-scene.svg", "at": "impact:1", "size": [640, 360], "view": {"style": "flat"}}]})");
+    ASSERT_EQ(shell(folder, "$BEAMCAM run s.json").code, 0);
+    ASSERT_EQ(shell(folder, "$BEAMCAM render s.json --at impact:1 -o a.svg --size 640x360 --style flat").code, 0);
+    ASSERT_EQ(shell(folder, "$BEAMCAM render s.json s.json --at impact:1 -o a.pdf").code, 0);
+    const auto drawing = [&](const char* file) {
+        const std::string bytes = testing::slurp(folder / file);
+        return bytes.substr(bytes.find("</metadata>"));
+    };
+    EXPECT_EQ(drawing("a.svg"), drawing("of-scene.svg"));
+    EXPECT_THAT(testing::slurp(folder / "a.pdf"), ::testing::StartsWith("%PDF"));
+    for (const char* wrong : {"-o a.pdf", "--from 0.1 -o a.svg", "--at 0.3 -o a-##.pdf"})
+        EXPECT_EQ(shell(folder, fmt::format("$BEAMCAM render s.json {}", wrong)).code, 2) << wrong;
+}
+
 // A time may be after the end of the scene, which extends the motion; a slip of the unit is then noticed.
 TEST(Films, ATimeAfterTheEndOfTheSceneIsAWarning) {
     const auto warnings_of = [](const std::string& outputs) {
@@ -170,7 +188,7 @@ TEST(Films, ATimeAfterTheEndOfTheSceneIsAWarning) {
     const char* late = " = 0.2 s is after the end of the scene, time.end = 0.1 s: the motion is computed until then";
     for (const char* output : {R"({"type": "still", "at": 0.2})", R"({"type": "video", "file": "a.gif", "to": 0.2})",
                                R"({"type": "figure", "figure": "kymograph", "to": 0.2})",
-                               R"({"type": "figure", "figure": "strobe", "at": 0.2})"})
+                               R"({"type": "figure", "figure": "strobe", "to": 0.2})"})
         EXPECT_THAT(warnings_of(output), HasSubstr(late)) << output;
     EXPECT_EQ(warnings_of(R"({"type": "still", "at": 0.1}, {"type": "video", "to": 0.1})"), "");
 }
@@ -199,7 +217,7 @@ TEST(Films, APartThatBeginsAtTheEndIsRejected) {
 
 TEST(Films, ATimeAfterTheLatestPossibleEndIsRejected) {
     for (const char* output :
-         {R"({"type": "still", "at": 1e100})", R"({"type": "figure", "figure": "strobe", "at": 1e100})",
+         {R"({"type": "still", "at": 1e100})", R"({"type": "figure", "figure": "strobe", "to": 1e100})",
           R"({"type": "figure", "figure": "kymograph", "to": 1e100})", R"({"type": "video", "from": 1e100})",
           R"({"type": "video", "to": 1e100})", R"({"type": "video", "poster": 1e100})",
           R"({"type": "figure", "figure": "kymograph", "from": 1e100})"}) {

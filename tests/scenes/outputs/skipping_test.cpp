@@ -198,7 +198,7 @@ TEST(Skipping, PicturesThatCompareTheSameMotionsIntegrateEachOnce) {
 // ---- figures ---------------------------------------------------------------------------------------
 
 constexpr const char* kFigures = R"({"type": "figure", "figure": "energy", "file": "e.svg"},
-    {"type": "figure", "figure": "phase", "file": "p.png", "dpi": 60})";
+    {"type": "figure", "channels": ["theta_dot"], "horizon": false, "file": "p.png", "dpi": 60})";
 
 TEST(Skipping, FiguresShareOneMotionAndFinishedOnesAreLeftAlone) {
     const Folder folder;
