@@ -76,6 +76,8 @@ Output with_options(const RenderArguments& args, const Output& base, const Scene
     if (args.film.value("--story")) {
         for (const char* key : kKeysOfStories) remove(node, key);
         remove(node, "layout");  // that of a film which shows everything
+    } else if (args.film.value("--to") || args.film.value("--speed") || args.film.value("--duration")) {
+        remove(node, "story");  // of the scene's own film
     }
     Output output = read_output(std::move(node), {&args.film, &args.still}, scene, args.scene, args.common);
     std::visit([&](auto& each) { each.file = args.file; }, output);  // wherever it is

@@ -162,6 +162,18 @@ TEST(Films, AnEventThatDoesNotHappenIsRefusedWithTheCount) {
     EXPECT_THAT(shell(folder, "$BEAMCAM render s.json -o x.png --at peek:1").err, HasSubstr("impact:N, release:N"));
 }
 
+TEST(Films, OptionsOfTimeReplaceTheStoryOfTheScene) {
+    SKIP_UNDER_SANITIZERS();
+    const Folder folder;
+    folder.write("s.json",
+                 R"({"time": {"end": 0.4}, "outputs": [{"type": "video", "file": "a.mp4", "story": "impact"}]})");
+    for (const char* options : {"-o a.mp4 --to 0.4 --speed impacts", "-o a.mp4 --speed 0.5", "-o a.mp4 --duration 2",
+                                "-o a-####.png --from 0.2 --to 0.3", "-o a.mp4 --story settle", "-o a.mp4"}) {
+        const Finished run = shell(folder, fmt::format("$BEAMCAM render s.json -n {}", options));
+        EXPECT_EQ(run.code, 0) << options << run.err;
+    }
+}
+
 TEST(Films, AStillMayBeVectorGraphics) {
     SKIP_UNDER_SANITIZERS();
     const Folder folder;
@@ -415,10 +427,7 @@ TEST(Render, RejectsOptionsThatWouldDoNothing) {
               "--fps belongs to outputs of type video, frames, page; this one is of type still"},
              {"--at 0.3 -o a.png --duration '4 s'",
               "--duration belongs to outputs of type video, frames; this one is of type still"},
-             {"--at 0.3 -o a.pdf --poster 0.1",
-              "--poster belongs to outputs of type video; this one is of type figure"},
-             {"--at 0.3 -o a.pdf --size 64x64",
-              "--size belongs to outputs of type video, frames, still; this one is of type figure"},
+             {"--at 0.3 -o a.pdf --poster 0.1", "--poster belongs to outputs of type video; this one is of type still"},
              {"-o a-##.png --poster 0.1", "--poster belongs to outputs of type video; this one is of type frames"}}) {
         const Finished done = shell(folder, std::string("$BEAMCAM render s.json ") + arguments);
         EXPECT_EQ(done.code, 2) << arguments;
