@@ -62,8 +62,7 @@ void add_lang(CLI::App& app, Lang& lang) {
 }
 
 void add_work(CLI::App& app, Common& common) {
-    app.add_flag("-v,--verbose", common.verbose,
-                 "Print where the time was spent, counts of the work, and how measured data were read");
+    app.add_flag("-v,--verbose", common.verbose, "Print where the time was spent, and counts of the work");
     add_jobs(app, common, "Largest number of threads");
     add_progress(app, common);
     app.add_flag(

@@ -1,12 +1,9 @@
 // `beamcam sweep`: many motions over one or two keys of a scene.
 #include <fmt/format.h>
 
-#include <cstdlib>
-
 #include "scenes/commands/key_options.hpp"
 #include "scenes/figures/sweeps.hpp"
 #include "scenes/format/checks.hpp"
-#include "scenes/format/file_column.hpp"
 #include "scenes/format/overrides.hpp"
 #include "scenes/format/sweep_keys.hpp"
 #include "scenes/scene/files.hpp"
@@ -35,9 +32,7 @@ Node over_node(const std::string& text) {
     const std::string value = text.substr(equals + 1);
     Node over = object_node({{"key", text.substr(0, equals)}});
     if (value.starts_with('@')) {
-        const auto column = file_column_in(value);
-        if (!column) throw UsageError(option + ": write KEY=@FILE.csv:COLUMN");
-        add(over, "file", column->first), add(over, "column", column->second);
+        add(over, "values", value);
         return over;
     }
     const std::vector<std::string> parts = split(value, ':');
@@ -47,13 +42,13 @@ Node over_node(const std::string& text) {
         add(over, "values", array_node(values, value_node));
         return over;
     }
-    const bool spaced = parts.size() == 4 && (parts[3] == "log" || parts[3] == "linear");
-    if (parts.size() != 3 && !spaced)
+    const bool logarithmic = parts.size() == 4 && parts[3] == "log";
+    if (parts.size() != 3 && !logarithmic)
         throw UsageError(option + ": write KEY=FIRST:LAST:COUNT, with :log for logarithmic spacing");
     require_units(option, {parts[0], parts[1]});
     add(over, "from", value_node(parts[0])), add(over, "to", value_node(parts[1]));
     add(over, "count", value_node(parts[2]));
-    if (spaced) add(over, "spacing", parts[3]);
+    if (logarithmic) add(over, "spacing", "log");
     return over;
 }
 
@@ -124,7 +119,7 @@ void act(const SweepArguments& args) {
     Scene scene = with_sweep_options(load_scene(args.scene, args.common), args);
     scene.set_outputs(outputs_of(args, scene));
     RunOptions options = run_options(args.common, "");
-    if (args.shard) options.shard = shard_of(*args.shard, std::getenv);
+    if (args.shard) options.shard = shard_of(*args.shard);
     run_or_plan({&scene, 1}, options, args.common);
 }
 
@@ -167,7 +162,7 @@ void add_sweep(Program& program) {
     add_option(app, "--caption", args.caption, "FILE", "Write the caption of the figure, too: .txt or .md");
     add_option(app, "--shard", args.shard, "I/N",
                "Compute part I of N into a separate file: 2/3 writes NAME.2of3.points; `beamcam collect` joins the "
-               "parts. auto: the part of this array task of Slurm");
+               "parts");
     add_work(app, args.common);
 }
 

@@ -19,7 +19,7 @@ std::optional<std::pair<std::string, std::string>> file_column_in(std::string_vi
 }
 
 FileColumn read_file_column(const std::filesystem::path& file, const std::string& column,
-                            const sim::Dimension& dimension, bool gaps, const std::string& unit) {
+                            const sim::Dimension& dimension, const std::string& unit) {
     FileColumn out;
     try {
         const output::ColumnTable table =
@@ -31,12 +31,11 @@ FileColumn read_file_column(const std::filesystem::path& file, const std::string
                                 suggestion_or_list(column, table.names()))};
         out.values = *found;
         const auto empty = std::ranges::find_if(out.values, [](double value) { return std::isnan(value); });
-        if (!gaps && empty != out.values.end())
+        if (empty != out.values.end())
             return {
                 {},
                 fmt::format("{}, {}: the cell of the column {} is empty", file.string(),
                             table.row_name(static_cast<std::size_t>(empty - out.values.begin())), in_quotes(column))};
-        std::erase_if(out.values, [](double value) { return std::isnan(value); });
         const std::string& stated = unit.empty() ? table.column(column)->unit : unit;
         if (const auto factor = stated.empty() ? std::nullopt : factor_between(stated, si_unit(dimension)))
             for (double& value : out.values) value *= *factor;

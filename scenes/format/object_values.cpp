@@ -107,7 +107,7 @@ std::optional<std::vector<double>> ObjectReader::column_value(const Node& node, 
     std::string own_unit;
     for (const auto& [name, stated] : columns_.value_or(ColumnsFile{}).units)
         if (name == column.second) own_unit = stated;
-    FileColumn read = read_file_column(folder / column.first, column.second, unit.resolved(), false, own_unit);
+    FileColumn read = read_file_column(folder / column.first, column.second, unit.resolved(), own_unit);
     if (same(unit.resolved(), dimension::kAngle) && first_wrap(read.values)) {
         unwrap(read.values);
         if (!columns_)  // the angles of an outline go round once, and may begin anywhere

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/format/file_column.hpp"
 #include "scenes/format/keys.hpp"
 #include "scenes/format/object_reader.hpp"
 #include "scenes/format/overrides.hpp"
@@ -43,17 +42,6 @@ static void visit(SceneVisitor& v, RandomKey& key) {
     v.value("to", quantity_format(key.to, dimension_of(key.key)), "Highest value.");
 }
 
-// Replaces the file and column of a key by the values of the column, in SI units if the file states another unit.
-static void read_column(ObjectReader& r, SweptKey& over) {
-    if (over.file.empty() || over.column.empty() || r.diagnostics().failed(r.path("file"))) return;
-    const std::filesystem::path folder = std::filesystem::path(r.context().source.name).parent_path();
-    FileColumn read =
-        read_file_column(folder / over.file, over.column, dimension_of(over.key)(r).value_or(dim::kNone), true);
-    if (!read.problem.empty()) return r.reject("file", ": {}", read.problem);
-    over.values = std::move(read.values);
-    over.file.clear(), over.column.clear();
-}
-
 static void visit(SceneVisitor& v, SweptKey& over) {
     v.text(sim::required("key", "\"cam.speed\""), over.key, "A key of the scene that is a number.");
     v.value("from", quantity_format(over.from, dimension_of(over.key)), "First value.");
@@ -62,13 +50,7 @@ static void visit(SceneVisitor& v, SweptKey& over) {
     v.choice("spacing", over.logarithmic, {{false, "linear"}, {true, "log"}},
              "Spacing of the values between the ends.");
     v.value("values", quantities_format(over.values, dimension_of(over.key), 1), "A list of values.");
-    v.text(sim::written_if(!over.file.empty(), "file"), over.file,
-           "A .csv or .npz file with the values; its path is relative to the scene's folder.");
-    v.text(sim::written_if(!over.column.empty(), "column"), over.column, "The column of the file.");
     v.exclusive("from", "values");
-    v.exclusive("from", "file");
-    v.exclusive("values", "file");
-    v.check([&over](ObjectReader& r) { read_column(r, over); });
 }
 
 namespace {
@@ -211,14 +193,12 @@ void check_sweep(ObjectReader& r, const Sweep& sweep) {
         need_key(at + ".key", over.key);
         const bool ranged = over.from && over.to && over.count;
         const bool partly = over.from || over.to || over.count;
-        const int ways = int(partly) + int(!over.values.empty()) + int(!over.file.empty());
-        if (ways != 1 || (partly && !ranged))
-            reject(at, "write from, to and count; or values; or file and column");
+        if (partly == !over.values.empty() || (partly && !ranged))
+            reject(at, "write from, to and count, or values");
         else if (ranged && *over.count == 1 && *over.from != *over.to)
             reject(at + ".count", "one value cannot have two ends; write at least 2, or equal ends");
         else if (ranged && over.logarithmic && !(*over.from * *over.to > 0))
             reject(at, "logarithmic spacing needs ends of one sign, neither of them 0");
-        if (over.file.empty() != over.column.empty()) reject(at, "file and column must be given together");
     }
     const bool carries = std::ranges::any_of(
         sweep.seeds.kinds, [](SeedKind kind) { return kind == SeedKind::carry_up || kind == SeedKind::carry_down; });

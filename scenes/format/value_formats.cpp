@@ -9,6 +9,7 @@
 #include "output/film/video.hpp"
 #include "output/image/raster.hpp"
 #include "scenes/format/checks.hpp"
+#include "scenes/format/file_column.hpp"
 #include "scenes/format/object_reader.hpp"
 
 namespace beamcam::scenes {
@@ -92,15 +93,20 @@ ValueFormat quantity_format(std::optional<double>& value, DimensionOf dimension)
 ValueFormat quantities_format(std::vector<double>& values, DimensionOf dimension, int fewest) {
     const auto read = [&values, dimension = std::move(dimension), fewest](ObjectReader& r, const Node& node,
                                                                           const std::string& key) {
-        if (node.kind != Node::Kind::array || std::ssize(node.items) < fewest)
-            return r.expect(node, key, "a list of numbers");
+        const auto column = file_column_in(word_in(node));
+        if (!column && (node.kind != Node::Kind::array || std::ssize(node.items) < fewest))
+            return r.expect(node, key, "a list of numbers, or \"@FILE.csv:COLUMN\"");
         const auto expected = dimension(r);
-        if (const auto given = expected ? r.numbers_value(node, key, *expected) : std::nullopt) values = *given;
+        const auto given = !expected ? std::nullopt
+                           : column  ? r.column_value(node, key, *column, *expected, sim::kAny)
+                                     : r.numbers_value(node, key, *expected);
+        if (given) values = *given;
     };
-    return {"list of numbers, or texts with a unit",
-            fmt::format(R"({{"type": "array", {}"items": {}}})",
-                        fewest > 0 ? fmt::format("\"minItems\": {}, ", fewest) : "", kQuantitySchema),
-            read, [&values] { return values.empty() ? Node() : Node(values); }};
+    return {
+        "numbers, or texts with a unit; or @FILE.csv:COLUMN",
+        fmt::format(R"({{"anyOf": [{{"type": "array", {}"items": {}}}, {{"type": "string", "pattern": "^@.+:.+$"}}]}})",
+                    fewest > 0 ? fmt::format("\"minItems\": {}, ", fewest) : "", kQuantitySchema),
+        read, [&values] { return values.empty() ? Node() : Node(values); }};
 }
 
 ValueFormat unit_format(AxisUnit& unit, DimensionOf dimension) {

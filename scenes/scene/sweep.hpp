@@ -11,14 +11,13 @@
 
 namespace beamcam::scenes {
 
-// A key and its values in SI units: a range, a list, or a column of a table.
+// A key and its values in SI units: a range or a list.
 struct SweptKey {
     std::string key;
     std::optional<double> from, to;  // both ends are values
     std::optional<int> count;
     bool logarithmic = false;
     std::vector<double> values;
-    std::string file, column;  // as written, until the values are read
     bool operator==(const SweptKey&) const = default;
 };
 

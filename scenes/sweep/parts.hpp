@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,9 +10,8 @@
 
 namespace beamcam::scenes {
 
-// "2/3"; "auto" or "auto/3": from the variables of an array task of Slurm. `variable` is std::getenv. Throws
-// UsageError.
-Shard shard_of(const std::string& text, const std::function<const char*(const char*)>& variable);
+// "2/3". Throws UsageError.
+Shard shard_of(const std::string& text);
 
 // Joins the parts of a sweep. Throws IoError, with the name of the file, for missing, repeated, unfinished, damaged or
 // foreign parts; SceneError.

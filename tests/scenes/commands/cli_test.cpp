@@ -163,14 +163,12 @@ TEST(CommandLine, WrongUsageIsTwo) {
         EXPECT_THAT(shell(folder, std::string("$BEAMCAM ") + arguments).err, HasSubstr(message));
     EXPECT_THAT(shell(folder, "$BEAMCAM rnder s.json").err, HasSubstr("did you mean \"render\"?"));
     EXPECT_THAT(shell(folder, "$BEAMCAM help").err, HasSubstr("unknown command \"help\"; write beamcam --help"));
-    EXPECT_THAT(shell(folder, "$BEAMCAM check s.json --emit=slurm").err, HasSubstr("--emit=slurm; it was withdrawn"));
-    EXPECT_THAT(shell(folder, "$BEAMCAM sweep s.json --emit slurm").err, HasSubstr("unknown option --emit; it was"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM check s.json --emit=slurm").err, HasSubstr("unknown option --emit=slurm"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM sweep s.json --emit slurm").err, HasSubstr("unknown option --emit"));
     EXPECT_THAT(shell(folder, "$BEAMCAM orbits s.json --turn 3").err,
                 HasSubstr("beamcam: unknown option --turn; did you mean \"--turns\"? (see beamcam orbits --help)"));
     EXPECT_THAT(shell(folder, "$BEAMCAM modes s.json t.json").err, HasSubstr("beamcam: unexpected argument t.json"));
     EXPECT_THAT(shell(folder, "$BEAMCAM keys tip_mass").err, HasSubstr("no key matches tip_mass; a mass at the tip"));
-    EXPECT_THAT(shell(folder, "$BEAMCAM cache ls").err, HasSubstr("motions are not stored between runs"));
-    EXPECT_THAT(shell(folder, "$BEAMCAM run s.json --no-cache").err, HasSubstr("motions are not stored between runs"));
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 3);  // the scene, .stdout, .stderr
 }
 
@@ -213,8 +211,7 @@ TEST(CommandLine, QuietKeepsStandardOutput) {
 TEST(CommandLine, ARangeEndsWithACount) {
     const Folder folder;
     folder.write("s.json", "{}");
-    for (const auto& [third, points] :
-         {std::pair{"2", 2}, std::pair{"21", 21}, std::pair{"5:log", 5}, std::pair{"4:linear", 4}})
+    for (const auto& [third, points] : {std::pair{"2", 2}, std::pair{"21", 21}, std::pair{"5:log", 5}})
         EXPECT_THAT(shell(folder, fmt::format("$BEAMCAM sweep s.json -n --over cam.speed=40:60:{}", third)).out,
                     HasSubstr(fmt::format("cam.speed: {} points\n", points)));
 }

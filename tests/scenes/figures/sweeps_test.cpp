@@ -476,7 +476,7 @@ TEST(Diagram, IsMadeAgainWhenATableChangesAndIsGuardedAsABaseline) {
     folder.write("w.csv", "w\n40\n41\n");
     folder.write("s.json", R"({"beam": {"model": "rigid"}, "contact": {"model": "restitution", "restitution": 0.5},
         "cam": {"eccentricity": "2 mm"}, "outputs": [{"type": "figure", "figure": "bifurcation", "file": "d.png"}],
-        "sweep": {"over": [{"key": "cam.speed", "file": "w.csv", "column": "w"}],
+        "sweep": {"over": [{"key": "cam.speed", "values": "@w.csv:w"}],
                   "transient": {"cam_turns": 30}, "keep": {"cam_turns": 12}}})");
     const char* run = "$BEAMCAM run s.json";
     EXPECT_THAT(testing::shell(folder, run).err, HasSubstr("wrote ./d.png"));

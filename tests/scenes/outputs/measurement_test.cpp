@@ -197,7 +197,7 @@ TEST(SweptColumn, LiesBesideTheSceneAndInTheWorkingDirectoryOfTheCommand) {
     const std::string rest =
         R"("beam": {"model": "rigid"}, "contact": {"model": "restitution"}, "cam": {"eccentricity": "2 mm"},)";
     folder.write("rel/x.json",
-                 "{" + rest + R"("sweep": {"over": [{"key": "cam.speed", "file": "w.csv", "column": "speed [rpm]"}],
+                 "{" + rest + R"("sweep": {"over": [{"key": "cam.speed", "values": "@w.csv:speed [rpm]"}],
                                                "transient": {"cam_turns": 5}, "keep": {"cam_turns": 1}}})");
     const Finished done = shell(folder, "$BEAMCAM sweep rel/x.json -q");
     ASSERT_EQ(done.code, 0) << done.err;
