@@ -61,24 +61,18 @@ void each_column(const SweepData& data, const StoredPoint& p, Visit&& visit) {
 }
 
 void csv(const SweepData& data, const std::function<void(const std::string&)>& write) {
+    const std::size_t class_column = data.axes.size() + 1;  // a name in CSV, after the seed
     std::string text = fmt::format("{}\n", fmt::join(column_names(data), ","));
     each_point(data, [&](const StoredPoint& p) {
-        std::string common;
-        const auto cell = [&common](double value) {
-            append_number(common, value);
-            common += ',';
-        };
-        std::ranges::for_each(data.place(p.point), cell);
-        common += fmt::format("{},{},", p.point % data.seeds, data.classes[static_cast<std::size_t>(p.kind)]);
-        cell(period_of(p));
-        for (const PointNumber& number : kPointNumbers) cell(p.*number.value);
-        const std::size_t width = data.columns.size(), rows = p.samples.size() / width;
-        for (std::size_t row = 0; row < std::max<std::size_t>(rows, 1); ++row) {
-            text += common;
-            if (rows > 0) text += std::to_string(row);
-            for (std::size_t c = 0; c < width; ++c) {
-                text += ',';
-                if (rows > 0) append_number(text, p.samples[row * width + c]);
+        std::vector<std::vector<double>> columns;
+        each_column(data, p, [&](std::size_t, const std::vector<double>& values) { columns.push_back(values); });
+        for (std::size_t row = 0; row < columns.front().size(); ++row) {
+            for (std::size_t c = 0; c < columns.size(); ++c) {
+                if (c > 0) text += ',';
+                if (c == class_column)
+                    text += data.classes[static_cast<std::size_t>(p.kind)];
+                else
+                    append_number(text, columns[c][row]);
             }
             text += '\n';
         }

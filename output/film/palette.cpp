@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
-#include <map>
 #include <span>
 #include <stdexcept>
 #include <unordered_map>
@@ -133,22 +133,15 @@ void PaletteMaker::add(const render::Image& image) {
         cell.count += weight;
         cell.r += weight * c.r, cell.g += weight * c.g, cell.b += weight * c.b;
     }
-    std::map<std::uint32_t, std::uint64_t> known;
-    for (std::size_t i = 0; i < seen_colors_.size(); ++i) known[seen_colors_[i]] = seen_counts_[i];
     for (const auto& [color, count] : counts)
-        if (count > image.pixels.size() / 5000) known[color] += count;
-    seen_colors_.clear(), seen_counts_.clear();
-    for (const auto& [color, count] : known) seen_colors_.push_back(color), seen_counts_.push_back(count);
+        if (count > image.pixels.size() / 5000) frequent_[color] += count;
 }
 
 std::vector<std::uint32_t> PaletteMaker::frequent() const {
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
-    for (std::size_t i = 0; i < seen_colors_.size(); ++i) order.emplace_back(seen_counts_[i], seen_colors_[i]);
-    std::ranges::sort(order, [](const auto& a, const auto& b) {
-        return a.first != b.first ? a.first > b.first : a.second < b.second;
-    });
+    std::vector<std::pair<std::uint32_t, std::uint64_t>> order(frequent_.begin(), frequent_.end());
+    std::ranges::stable_sort(order, std::greater(), [](const auto& each) { return each.second; });
     std::vector<std::uint32_t> out;
-    for (const auto& [count, color] : order)
+    for (const auto& [color, count] : order)
         if (out.size() < kExact) out.push_back(color);
     return out;
 }

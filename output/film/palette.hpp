@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -29,9 +30,8 @@ class PaletteMaker {
     };
     std::vector<std::uint32_t> frequent() const;
     void refine(std::vector<std::uint32_t>& colors, std::size_t fixed) const;
-    std::vector<Cell> cells_;                 // 32³
-    std::vector<std::uint32_t> seen_colors_;  // colours of flat areas, and their counts
-    std::vector<std::uint64_t> seen_counts_;
+    std::vector<Cell> cells_;                               // 32³
+    std::map<std::uint32_t, std::uint64_t> frequent_;       // counts of the colours of flat areas
     std::unordered_map<std::uint32_t, std::uint64_t> all_;  // counts of all colours
 };
 
