@@ -21,7 +21,8 @@ std::string change_of_pattern(const PeriodicOrbit& orbit, const PeriodicOrbit* b
     if (orbit.always_touching()) return "the beam no longer follows the cam all the time";
     const std::string impacts = counted(orbit.impacts.size(), "impact");
     if (beyond && beyond->always_touching()) return "the beam follows the cam all the time";
-    if (orbit.chatters() && orbit.impacts.empty()) return "the flight before the rest on the cam vanishes";
+    // The end of a flight that vanishes is too slow to bounce again and again.
+    if (orbit.chatters() && orbit.impacts.size() <= 1) return "the flight before the rest on the cam vanishes";
     if (orbit.chatters()) return "the rest on the cam vanishes";
     if (beyond && beyond->chatters()) return "a rest on the cam appears";
     if (beyond && beyond->impacts.size() != orbit.impacts.size())
