@@ -35,6 +35,16 @@ Box whole_part(const Image& source, const Box& part) {
     return {x0, y0, x1 - x0, y1 - y0};
 }
 
+// No channel of a pixel above its alpha: a file stores colours divided by it, which would overflow.
+Image within_alpha(Image image) {
+    for (std::uint32_t& p : image.pixels) {
+        const std::uint32_t alpha = p >> 24;
+        const auto channel = [&](int shift) { return std::min(p >> shift & 255U, alpha) << shift; };
+        p = alpha << 24 | channel(16) | channel(8) | channel(0);
+    }
+    return image;
+}
+
 }  // namespace
 
 Canvas::Canvas(Image& image, const Fonts& fonts) : Painter(fonts), width_(image.width), height_(image.height) {
@@ -86,7 +96,10 @@ void Canvas::image_part(const Image& source, int x, int y, const Box& part) {
 }
 
 void Canvas::image_tiles(const Image& source, int x, int y, const DirtyTiles& tiles) {
-    if (is_vector_) return pixels(source, {double(x), double(y), double(source.width), double(source.height)});
+    if (is_vector_) {
+        const Image whole = within_alpha(source);
+        return pixels(whole, {double(x), double(y), double(source.width), double(source.height)});
+    }
     std::vector<Box> runs;
     tiles.for_each_run([&](int left, int top, int right, int bottom) {
         const int x0 = std::max(left, x), y0 = std::max(top, y);

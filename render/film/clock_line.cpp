@@ -11,8 +11,10 @@ constexpr double kSmaller = 0.7;                        // size of letters for w
 constexpr double kAfterClock = 36, kBetweenPills = 14;  // [design px]
 constexpr double kPadding = 1.7;                        // of a pill, in sizes of its letters
 
-std::string peak_text(const FilmContext& context, const std::string& force) {
-    return context.look.translate("peak") + "\u00A0$F$\u2009=\u2009" + force;
+// In the unit of the film's largest force.
+std::string peak_text(const FilmContext& context, double force) {
+    return context.look.translate("peak") + "\u00A0$F$\u2009=\u2009" +
+           reading(force, prefix_for(context.scales.largest_force), "N");
 }
 
 }  // namespace
@@ -61,8 +63,10 @@ ClockLine::ClockLine(const FilmContext& context) : context_(context) {
         pills_.push_back(
             {Pill::Kind::speed, context.look.translate(widest_speed_text(setup.speeds)), context.look.palette.contact});
     for (int m = 0; m < context.members() && mechanism && setup.view.show.labels; ++m)
-        if (!context.motion(m).impacts.empty() && context.scales.largest_force > 0)
-            pills_.push_back({Pill::Kind::peak, peak_text(context, "0.0888\u00A0mN"),
+        if (!context.motion(m).impacts.empty() && context.scales.largest_force > 0 &&
+            context.motion(m).problem.contact.model == sim::ContactModel::compliant)
+            pills_.push_back({Pill::Kind::peak,
+                              peak_text(context, 0.888 * prefix_for(context.scales.largest_force).factor),
                               context.members() > 1 ? context.member_color(m) : context.look.palette.contact, m});
     steady_ = steady_speed(setup.speeds);
     Image scratch(1, 1);
@@ -121,8 +125,7 @@ std::string ClockLine::words(const Pill& pill, int frame) const {
             break;
     }
     const double peak = recent_peak(context_, pill.member, frame);
-    return peak > 0 ? peak_text(context_, reading(peak, prefix_for(context_.scales.largest_force), "N"))
-                    : std::string();
+    return peak > 0 ? peak_text(context_, peak) : std::string();
 }
 
 void ClockLine::draw(Canvas& canvas, int frame) const {

@@ -302,7 +302,7 @@ void add_figure(Program& program) {
              "--x-label and --x-unit. Without -o its columns are listed.");
     add_scene(app, args.scene, args.common);
     app.add_option("FIGURE", args.figure,
-                   "Name of the figure or preset; not needed with --channels (\"series\") and --at (\"strobe\")");
+                   "Name of the figure or preset; not needed with --channels (\"series\")");
     app.add_flag("--list", args.list, "List all figures and presets, and which of them this scene cannot have");
     add_option(app, "--preset", args.preset, "FILE", "A preset of your own: .json with the keys of a figure");
     add_option(app, "-o,--output", args.file, "FILE", "File to make: .pdf, .svg or .png");
