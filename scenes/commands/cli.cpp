@@ -52,8 +52,9 @@ std::string unexpected_words(const std::vector<std::string>& words, const CLI::A
         for (std::string& name : split(option->get_name(false, true), ',')) known.push_back(std::move(name));
     for (const std::string& word : words) {
         if (!word.starts_with('-') || word == "-") continue;
-        const std::string name = word.starts_with("--") ? word.substr(0, word.find('=')) : "";
-        named.push_back(fmt::format("unknown option {}{}", word, suggestion(name, known)));
+        std::string remedy = absent_option(word);
+        if (remedy.empty() && word.starts_with("--")) remedy = suggestion(word.substr(0, word.find('=')), known);
+        named.push_back(fmt::format("unknown option {}{}", word, remedy));
     }
     return named.empty() ? fmt::format("unexpected argument {}", fmt::join(words, " "))
                          : fmt::format("{}", fmt::join(named, "; "));

@@ -1,6 +1,8 @@
 // `beamcam sweep`: many motions over one or two keys of a scene.
 #include <fmt/format.h>
 
+#include <cstdlib>
+
 #include "scenes/commands/key_options.hpp"
 #include "scenes/figures/sweeps.hpp"
 #include "scenes/format/checks.hpp"
@@ -119,7 +121,7 @@ void act(const SweepArguments& args) {
     Scene scene = with_sweep_options(load_scene(args.scene, args.common), args);
     scene.set_outputs(outputs_of(args, scene));
     RunOptions options = run_options(args.common, "");
-    if (args.shard) options.shard = shard_of(*args.shard);
+    if (args.shard) options.shard = shard_of(*args.shard, std::getenv);
     run_or_plan({&scene, 1}, options, args.common);
 }
 
@@ -162,7 +164,7 @@ void add_sweep(Program& program) {
     add_option(app, "--caption", args.caption, "FILE", "Write the caption of the figure, too: .txt or .md");
     add_option(app, "--shard", args.shard, "I/N",
                "Compute part I of N into a separate file: 2/3 writes NAME.2of3.points; `beamcam collect` joins the "
-               "parts");
+               "parts. auto: the part of this array task of Slurm");
     add_work(app, args.common);
 }
 

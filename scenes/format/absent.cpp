@@ -8,7 +8,7 @@
 namespace beamcam::scenes {
 namespace {
 
-enum class WordKind { not_modelled, key, value, unit, command, ending };
+enum class WordKind { not_modelled, key, value, unit, command, option, ending };
 
 struct Absent {
     WordKind kind;
@@ -54,7 +54,28 @@ constexpr Absent kAbsent[] = {
      "the height lies in the plane of the motion, the width perpendicular to it; the wall of a tube is \"wall\""},
     {WordKind::key, "section.inner section.inner_diameter section.radius section.outer",
      "a circle has a \"diameter\", a tube an outer \"diameter\" and a \"wall\""},
+    {WordKind::key, "anchor", "it was withdrawn: texts are in a band below the panels; remove the key"},
+    {WordKind::key, "subtitles chapters", "it was withdrawn; \"events\" show texts in the film, ffmpeg adds subtitles"},
+    {WordKind::key, "collision", "it was withdrawn; write \"from\": \"collision:3\", \"to\": \"liftoff:3\""},
+    {WordKind::key, "layer", "it was withdrawn; \"show\" and \"layout\" choose what a film shows"},
+    {WordKind::key, "trace tip_path swing shutter exposures view.strobe palette logo",
+     "it was withdrawn; \"theme\" and \"background\" remain, and the figure \"strobe\" draws several instants"},
 
+    {WordKind::key, "wrap sign zero",
+     "it was withdrawn: angles that begin again after a turn are joined; convert other columns before, and name the "
+     "file that has the channel itself"},
+    {WordKind::key, "friction.damping", "the dashpot of the bristle was withdrawn; remove the key"},
+    {WordKind::key, "accepted reproducible_until renderers",
+     "it was withdrawn: references are plain files, which beamcam test BASELINES --update writes; remove the key"},
+    {WordKind::key, "expected", "it was withdrawn; beamcam diff compares pictures of other programs"},
+
+    {WordKind::value, "type=model", "3-D models were withdrawn; a \"page\" plays the motion in a browser"},
+    {WordKind::value, "type=shapes",
+     "it was withdrawn; beamcam figure SCENE kymograph --data FILE.csv has the deflections"},
+    {WordKind::value, "type=sweep-film", "it was withdrawn; write a \"sweep\", a \"figure\" and \"video\" outputs"},
+    {WordKind::value, "codec=hevc codec=av1 codec=apng",
+     "it was withdrawn; write h264, or vp9 or prores for a transparent film"},
+    {WordKind::value, "method=exponential method=arkode-erk", "it was withdrawn; write auto or rk8"},
     {WordKind::value, "type=gif", "write a \"video\" whose \"file\" ends in .gif"},
     {WordKind::value, "type=apng", "write a \"video\" whose \"file\" ends in .webp or .gif"},
 
@@ -66,9 +87,30 @@ constexpr Absent kAbsent[] = {
     {WordKind::unit, "hertz", "write Hz"},
     {WordKind::unit, "newton newtons", "write N"},
 
+    {WordKind::command, "accept", "it was withdrawn; write beamcam test BASELINES --update NAME"},
+    {WordKind::command, "completion manual", "it was withdrawn; scenes/completion.bash completes, --help explains"},
+    {WordKind::command, "cache", "it was withdrawn: motions are not stored between runs"},
+    {WordKind::command, "concat", "it was withdrawn; write ffmpeg -f concat -i LIST.txt -c copy FILM.mp4"},
+    {WordKind::command, "sheet", "it was withdrawn; write ffmpeg -i FILM.mp4 -vf fps=1,tile=4x3 -frames:v 1 SHEET.png"},
+    {WordKind::command, "paper", "it was withdrawn; write beamcam run scenes/paper/*.json -o paper"},
+    {WordKind::command, "stress", "it was withdrawn; tests/campaign of the source has the campaign"},
     {WordKind::command, "help", "write beamcam --help"},
     {WordKind::command, "version", "write beamcam --version"},
 
+    {WordKind::option, "--no-cache", "it was withdrawn: motions are not stored between runs"},
+    {WordKind::option, "--frames", "it was withdrawn; --from and --to choose a part of a film"},
+    {WordKind::option, "--shard", "films are made in one piece; beamcam sweep --shard divides a sweep"},
+    {WordKind::option, "--shapes",
+     "it was withdrawn; beamcam figure SCENE kymograph --data FILE.csv has the deflections"},
+    {WordKind::option, "--collision", "it was withdrawn; write --from collision:3 --to liftoff:3"},
+    {WordKind::option, "--emit --parts",
+     "it was withdrawn; scenes/SWEEPS.md has recipes for GNU parallel, Snakemake and Slurm"},
+    {WordKind::option, "--film", "it was withdrawn; --diagram draws the sweep, beamcam render one of its motions"},
+    {WordKind::option, "--add-digest --on-new-renderer", "it was withdrawn; --update writes the references"},
+    {WordKind::option, "--annotate", "it was withdrawn; --report writes a page, --junit a file for CI services"},
+    {WordKind::option, "--text", "it was withdrawn: texts are drawn as outlines"},
+
+    {WordKind::ending, ".apng .eps .glb .tif .tiff .vtt .srt", "this format was withdrawn"},
     {WordKind::ending, ".pdf .svg", "figures and beamcam render --at T -o FILE are drawn as .pdf and .svg"},
 };
 
@@ -116,6 +158,10 @@ std::string absent_unit(std::string_view symbol) {
 
 std::string absent_command(std::string_view name) {
     return sentence(WordKind::command, [&](const std::string& each) { return each == name; });
+}
+
+std::string absent_option(std::string_view name) {
+    return sentence(WordKind::option, [&](const std::string& each) { return each == name.substr(0, name.find('=')); });
 }
 
 std::string absent_ending(std::string_view file) {

@@ -1,6 +1,6 @@
 // One table (absent.cpp) holds the words that a user may expect in a scene or on the command line and that beamcam does
-// not have, because the thing is not modelled or has another name. The error of such a word ends with the sentence of
-// the table. A word that exists is never looked up.
+// not have, because the thing is not modelled or was withdrawn. The error of such a word ends with the sentence of the
+// table. A word that exists is never looked up.
 #pragma once
 
 #include <string>
@@ -11,10 +11,11 @@ namespace beamcam::scenes {
 
 // Each returns "; SENTENCE", or nothing for a word that the table does not have.
 std::string absent_key(std::string_view path);                           // "cam.profile"
-std::string absent_value(std::string_view path, std::string_view word);  // "outputs.0.type", "gif"
+std::string absent_value(std::string_view path, std::string_view word);  // "solver.method", "exponential"
 std::string absent_unit(std::string_view symbol);                        // "inch"
 std::string absent_command(std::string_view name);
-std::string absent_ending(std::string_view file);  // of a file name: "a.pdf"
+std::string absent_option(std::string_view name);  // "--frames", or "--frames=0:60"
+std::string absent_ending(std::string_view file);  // of a file name: "a.eps"
 
 // A part that is not modelled: the words in keys, and the sentence about it.
 struct NotModelled {

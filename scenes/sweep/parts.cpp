@@ -18,6 +18,12 @@ namespace {
 
 constexpr std::uint64_t kMostParts = 1'000'000;
 
+Shard checked_shard(std::uint64_t number, std::uint64_t parts, const std::string& option) {
+    if (parts < 1 || parts > kMostParts || number < 1 || number > parts)
+        throw UsageError(fmt::format("--shard {}: write I/N with 1 <= I <= N, for example 2/3, or auto", option));
+    return {number, parts};
+}
+
 // A part: its file, and the description in its head (see head_of).
 struct Part {
     std::filesystem::path file;
@@ -40,7 +46,7 @@ Part open_part(const std::filesystem::path& file) {
     found.sweep = text("sweep");
     found.scene = text("scene");
     try {
-        found.shard = shard_of(text("part"));
+        found.shard = shard_of(text("part"), [](const char*) { return nullptr; });
     } catch (const UsageError&) {
         throw output::IoError(file.string() + ": not a part of a sweep, or it is damaged");
     }
@@ -76,13 +82,27 @@ void require_complete(const std::vector<Part>& parts) {
 
 }  // namespace
 
-Shard shard_of(const std::string& text) {
+Shard shard_of(const std::string& text, const std::function<const char*(const char*)>& variable) {
     const std::size_t slash = std::min(text.find('/'), text.size());
-    const auto number = output::number_in<std::uint64_t>(text.substr(0, slash)),
-               parts = output::number_in<std::uint64_t>(text.substr(std::min(slash + 1, text.size())));
-    if (!number || !parts || *parts > kMostParts || *number < 1 || *number > *parts)
-        throw UsageError(fmt::format("--shard {}: write I/N with 1 <= I <= N, for example 2/3", text));
-    return {*number, *parts};
+    const std::string head = text.substr(0, slash), tail = text.substr(std::min(slash + 1, text.size()));
+    const auto parts = output::number_in<std::uint64_t>(tail);
+    if (head != "auto")
+        return checked_shard(output::number_in<std::uint64_t>(head).value_or(0), parts.value_or(0), text);
+    const auto value = [&](const char* name) {
+        const char* found = variable(name);
+        return output::number_in<std::uint64_t>(found ? found : "");
+    };
+    const auto number = value("SLURM_ARRAY_TASK_ID");
+    if (!number)
+        throw UsageError(fmt::format(
+            "--shard {}: this is not an array task of Slurm, since SLURM_ARRAY_TASK_ID is not set; write I/N", text));
+    const std::uint64_t first = value("SLURM_ARRAY_TASK_MIN").value_or(1),
+                        step = std::max<std::uint64_t>(1, value("SLURM_ARRAY_TASK_STEP").value_or(1));
+    const auto count = parts ? parts : value("SLURM_ARRAY_TASK_COUNT");
+    if (!count)
+        throw UsageError(
+            fmt::format("--shard {}: SLURM_ARRAY_TASK_ID is set, but not SLURM_ARRAY_TASK_COUNT; write auto/N", text));
+    return checked_shard(*number < first ? 0 : (*number - first) / step + 1, *count, text);
 }
 
 CollectedSweep collect(const std::vector<std::filesystem::path>& files) {

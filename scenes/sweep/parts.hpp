@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,9 @@
 
 namespace beamcam::scenes {
 
-// "2/3". Throws UsageError.
-Shard shard_of(const std::string& text);
+// "2/3"; "auto" or "auto/3": from the variables of an array task of Slurm. `variable` is std::getenv. Throws
+// UsageError.
+Shard shard_of(const std::string& text, const std::function<const char*(const char*)>& variable);
 
 // Joins the parts of a sweep. Throws IoError, with the name of the file, for missing, repeated, unfinished, damaged or
 // foreign parts; SceneError.

@@ -163,12 +163,14 @@ TEST(CommandLine, WrongUsageIsTwo) {
         EXPECT_THAT(shell(folder, std::string("$BEAMCAM ") + arguments).err, HasSubstr(message));
     EXPECT_THAT(shell(folder, "$BEAMCAM rnder s.json").err, HasSubstr("did you mean \"render\"?"));
     EXPECT_THAT(shell(folder, "$BEAMCAM help").err, HasSubstr("unknown command \"help\"; write beamcam --help"));
-    EXPECT_THAT(shell(folder, "$BEAMCAM check s.json --emit=slurm").err, HasSubstr("unknown option --emit=slurm"));
-    EXPECT_THAT(shell(folder, "$BEAMCAM sweep s.json --emit slurm").err, HasSubstr("unknown option --emit"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM check s.json --emit=slurm").err, HasSubstr("--emit=slurm; it was withdrawn"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM sweep s.json --emit slurm").err, HasSubstr("unknown option --emit; it was"));
     EXPECT_THAT(shell(folder, "$BEAMCAM orbits s.json --turn 3").err,
                 HasSubstr("beamcam: unknown option --turn; did you mean \"--turns\"? (see beamcam orbits --help)"));
     EXPECT_THAT(shell(folder, "$BEAMCAM modes s.json t.json").err, HasSubstr("beamcam: unexpected argument t.json"));
     EXPECT_THAT(shell(folder, "$BEAMCAM keys tip_mass").err, HasSubstr("no key matches tip_mass; a mass at the tip"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM cache ls").err, HasSubstr("motions are not stored between runs"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM run s.json --no-cache").err, HasSubstr("motions are not stored between runs"));
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 3);  // the scene, .stdout, .stderr
 }
 

@@ -633,7 +633,7 @@ TEST(Films, TellOfWhatTheyWillNotShow) {
     EXPECT_THAT(slow.second, HasSubstr("outputs.0.speed.intervals.0.to = 4 s is outside the film"));
     const auto nowhere = told(R"({"type": "video", "events": [{"at": 0.2, "text": "C", "anchor": "cam"}]})");
     EXPECT_FALSE(nowhere.first);
-    EXPECT_THAT(nowhere.second, HasSubstr("unknown key \"anchor\""));
+    EXPECT_THAT(nowhere.second, HasSubstr("it was withdrawn: texts are in a band below the panels"));
     const auto alone = told(R"({"type": "still", "at": 0.1, "comparison": "ghosts"})");
     EXPECT_TRUE(alone.first);
     EXPECT_THAT(alone.second, HasSubstr("has no effect without \"compare\""));

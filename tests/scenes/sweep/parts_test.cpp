@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <map>
 #include <sstream>
 
 #include "output/files/atomic_file.hpp"
@@ -24,11 +25,32 @@ constexpr const char* kPartedScene = R"({
     "sweep": {"over": [{"key": "cam.speed", "from": 40, "to": 60, "count": 23}],
               "transient": {"cam_turns": 50}, "keep": {"cam_turns": 12}}})";
 
-TEST(SweepParts, AreNumberedFromOne) {
-    EXPECT_EQ(shard_of("2/3").number, 2u);
-    EXPECT_EQ(shard_of("2/3").count, 3u);
-    for (const char* text : {"auto", "0/3", "4/3", "x/3", "1", "1/0", "1/x", "/", ""})
-        EXPECT_THROW(shard_of(text), UsageError) << text;
+Shard by_variables(const std::string& text, std::map<std::string, std::string> variables) {
+    return shard_of(text, [&](const char* name) {
+        const auto found = variables.find(name);
+        return found == variables.end() ? nullptr : found->second.c_str();
+    });
+}
+
+TEST(SweepParts, AreNumberedByTheUserOrTheEngine) {
+    EXPECT_EQ(by_variables("2/3", {}).number, 2u);
+    const auto is = [](const Shard& shard, std::uint64_t number, std::uint64_t count) {
+        return shard.number == number && shard.count == count;
+    };
+    EXPECT_TRUE(is(by_variables("auto", {{"SLURM_ARRAY_TASK_ID", "7"},
+                                         {"SLURM_ARRAY_TASK_MIN", "3"},
+                                         {"SLURM_ARRAY_TASK_MAX", "11"},
+                                         {"SLURM_ARRAY_TASK_STEP", "2"},
+                                         {"SLURM_ARRAY_TASK_COUNT", "5"}}),
+                   3, 5));
+    EXPECT_TRUE(is(by_variables("auto/9", {{"SLURM_ARRAY_TASK_ID", "9"}}), 9, 9));
+    for (const char* text : {"auto", "0/3", "4/3", "x/3", "1", "1/0", "auto/x"})
+        EXPECT_THROW(by_variables(text, {}), UsageError) << text;
+    EXPECT_THROW(by_variables("auto", {{"SLURM_ARRAY_TASK_ID", "9"}}), UsageError);  // of how many
+    EXPECT_THROW(
+        by_variables("auto",
+                     {{"SLURM_ARRAY_TASK_ID", "2"}, {"SLURM_ARRAY_TASK_MIN", "3"}, {"SLURM_ARRAY_TASK_COUNT", "3"}}),
+        UsageError);
 }
 
 TEST(SweepParts, JoinToTheBytesOfTheWhole) {
