@@ -205,14 +205,14 @@ static void add_data(const FilmContext& context, const PanelSpec& spec, ChartCon
 }
 
 // The limits of stick–slip friction beside the friction force: it slides on ±μF, and sticks up to ±μ_s F, which is
-// dotted where it is another. True if the chart has them.
-static bool add_sliding_limits(const FilmContext& context, const PanelSpec& spec, ChartContent& c) {
+// dotted where it is another. Returns their symbols for the heading.
+static std::string add_sliding_limits(const FilmContext& context, const PanelSpec& spec, ChartContent& c) {
     const auto* law = std::get_if<sim::StickSlipFriction>(&context.setup->problem.contact.friction);
     const sim::Table& chart = context.setup->chart;
     const auto *t = column(chart, {ChannelKind::t, 0}), *force = column(chart, {ChannelKind::contact_force, 0});
     if (!law || !t || !force || context.members() > 1 || spec.channels.size() > 1 ||
         spec.channels.front().kind != ChannelKind::friction_force)
-        return false;
+        return {};
     std::vector<double> limits{law->coefficient};
     if (law->static_coefficient && *law->static_coefficient != law->coefficient)
         limits.push_back(*law->static_coefficient);
@@ -224,7 +224,7 @@ static bool add_sliding_limits(const FilmContext& context, const PanelSpec& spec
             for (std::size_t i = 0; i < t->size(); ++i) curve.add((*t)[i], limit * (*force)[i]);
             c.panel.series.push_back(std::move(curve));
         }
-    return true;
+    return limits.size() > 1 ? ", ±$μF$, ±$μ_{\\r{s}}F$" : ", ±$μF$";
 }
 
 ChartContent blank_content(const FilmContext& context, const PanelSpec& spec, int member) {
@@ -298,7 +298,7 @@ ChartContent strip_content(const FilmContext& context, const PanelSpec& spec) {
             c.panel.series.push_back(std::move(curve));
         }
     }
-    if (add_sliding_limits(context, spec, c)) symbols += ", ±$μF$";
+    symbols += add_sliding_limits(context, spec, c);
     c.blank_zeros = is_force(first) && context.members() > 1;  // a row of zeros would say nothing
     Range values = range_of(context, spec, c.panel.series);
     if (single && dotted) values = add_places(context, shown_time(context, spec), c);
