@@ -98,7 +98,7 @@ Margins PanelNames::room_around(const Plot& plot) const {
         m.top += style_.numbers + style_.gap;
     m.right = std::max(1.3 * style_.numbers, beyond_right_);
     if (plot.right()) m.right = widest_right_ + style_.gap + letter + 1.5 * style_.gap + right_.beside;
-    if (plot.bar()) m.right = 2.2 * style_.gap + 0.9 * letter + style_.gap + widest_bar_ + letter + 1.6 * style_.gap;
+    if (plot.bar()) m.right = before_bar() + 0.9 * letter + style_.gap + widest_bar_ + letter + 1.6 * style_.gap;
     return m;
 }
 
@@ -183,7 +183,7 @@ Color color_of(const ColorBar& bar, double share) {
 
 void PanelNames::draw_color_bar(const Plot& plot, const Box& beside) const {
     const AxisMap& axis = *plot.bar();
-    const Box bar{beside.right() + 2.2 * style_.gap, beside.y, 0.9 * style_.letters, beside.h};
+    const Box bar{beside.right() + before_bar(), beside.y, 0.9 * style_.letters, beside.h};
     std::vector<Color> colors;
     constexpr int kSteps = 128;
     for (int k = 0; k <= kSteps; ++k) {

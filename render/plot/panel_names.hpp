@@ -1,6 +1,7 @@
 // The texts around a plot on a page: labels of the axes, common factors, letter and title, and the colour bar.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,8 @@ class PanelNames {
     void draw_common_factors(const Plot& plot) const;
     void draw_titles(const Plot& plot, double top, bool alone) const;
     void draw_color_bar(const Plot& plot, const Box& beside) const;
+    // Between plot and colour bar, which passes the numbers below plots that share it.
+    double before_bar() const { return std::max(2.2 * style_.gap, beyond_right_ + style_.gap); }
 
     const Panel& panel_;
     const PlotStyle& style_;

@@ -34,8 +34,8 @@ struct Places {
             points.value[i] = before.value[order[i]];
         }
     }
-    // Writes places on the beam in the unit that suits them.
-    void measure_beam() {
+    // Writes lengths in the unit that suits them.
+    void measure_lengths() {
         measure = measure_of("m", largest_magnitude(points.y));
         points.y = scaled(std::move(points.y), measure.factor);
     }
@@ -92,7 +92,7 @@ Figure impulsive_places(const Subject& subject, const sim::Result& result) {
     const render::Prefix prefix = render::prefix_for(places.strongest);
     places.points.value = scaled(std::move(places.points.value), 1 / prefix.factor);
     places.strongest /= prefix.factor;
-    places.measure_beam();
+    places.measure_lengths();
     return {.title = "Impacts on the beam, measured from its root, coloured by their normal impulse",
             .panels = {places_panel(places, end, places.beam_label(), fmt::format("$J$ / ({}N s)", prefix.symbol))}};
 }
@@ -116,10 +116,12 @@ Figure forceful_places(const Subject& subject, const sim::Result& result, const 
     if (on_beam.points.x.empty())
         throw render::PictureError(
             fmt::format("figure contact-places: the beam does not touch the cam before {:g} s; raise time.end", end));
-    on_beam.measure_beam();
+    on_beam.measure_lengths();
+    if (!disc) on_cam.measure_lengths();
     on_beam.sort_by_value(), on_cam.sort_by_value();
-    std::vector<Panel> panels{places_panel(on_beam, end, on_beam.beam_label(), "$F$ / N"),
-                              places_panel(on_cam, end, disc ? "$s_{\\r{c}}$/$R$ / °" : "$s_{\\r{c}}$ / m", "$F$ / N")};
+    std::vector<Panel> panels{
+        places_panel(on_beam, end, on_beam.beam_label(), "$F$ / N"),
+        places_panel(on_cam, end, disc ? "$s_{\\r{c}}$/$R$ / °" : "$s_{\\r{c}}$ / " + on_cam.measure.unit, "$F$ / N")};
     panels[0].title = phrase(lang, "on the beam"), panels[1].title = phrase(lang, "on the cam");
     if (const sim::Collision* first = collision_of(problem, result, 1))
         if (auto alone = first_collision(*first, end, t, on_beam.measure.factor, panels[0], lang))
