@@ -87,11 +87,10 @@ void write_outline(const std::string& file, const Scene& scene, const sim::Lever
     Scene alone = scene;
     alone.outputs.clear();
     const std::string text = to_json(alone);
-    const auto medium = file.ends_with(".pdf") ? render::Medium::pdf : render::Medium::svg;
     const std::string title =
         scene.title.empty() ? "Outline of the cam at 1:1" : scene.title + ": outline of the cam at 1:1";
     output::write_file(target_of(file, scene, file_list),
-                       cam_drawing(scene.problem, lever, medium, document_of(title, "", text)));
+                       cam_drawing(scene.problem, lever, medium_of(file), document_of(title, "", text)));
 }
 
 int act(const CamArguments& args) {

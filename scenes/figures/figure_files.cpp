@@ -51,8 +51,7 @@ std::string bytes_of(const figure::Figure& f, const FigureOutput& how, const std
     const render::Document document = document_of(render::to_plain(f.title), render::to_plain(whole_caption(f)), scene);
     const std::string ending = ending_of(how.file);
     if (ending != ".png")
-        return drawn(f, how, ending == ".pdf" ? render::Medium::pdf : render::Medium::svg, document,
-                     [](figure::PageCanvas& sheet) { return sheet.bytes(); });
+        return drawn(f, how, medium_of(how.file), document, [](figure::PageCanvas& sheet) { return sheet.bytes(); });
     return output::encode_png(figure_image(f, how), {how.dpi,
                                                      {{"Title", document.title},
                                                       {"Description", document.subject},
@@ -62,6 +61,10 @@ std::string bytes_of(const figure::Figure& f, const FigureOutput& how, const std
 }
 
 }  // namespace
+
+render::Medium medium_of(const std::string& file) {
+    return ending_of(file) == ".pdf" ? render::Medium::pdf : render::Medium::svg;
+}
 
 render::Document document_of(std::string title, std::string subject, std::string scene) {
     return {std::move(title), std::move(subject), std::move(scene), fmt::format("beamcam {}", kVersion),

@@ -16,6 +16,9 @@ namespace beamcam::scenes {
 std::vector<std::pair<std::string, std::string>> figure_files(const render::figure::Figure& figure,
                                                               const FigureOutput& how, const std::string& scene);
 
+// Of vector graphics, by the ending of the file: .pdf, else SVG.
+render::Medium medium_of(const std::string& file);
+
 // The metadata of a figure's file. `title`, `subject`: plain text.
 render::Document document_of(std::string title, std::string subject, std::string scene);
 

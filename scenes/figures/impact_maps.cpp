@@ -65,6 +65,7 @@ std::vector<Panel> impact_maps(const Subject& subject, const sim::Result& result
     phase.x.to = hub.x.to = 1;
     hub.y.from.reset();
     spread_ratios(loss);
+    if (problem.cam->speed == 0) return {loss, next};  // all impacts have one phase
     return {loss, next, phase, hub};
 }
 
@@ -74,7 +75,6 @@ FigureDrawing prepare_maps(const Scene& scene, const FigureOutput& how, MotionRe
     const auto draw = [=](const Subject& subject, const sim::Result& result) -> Figure {
         std::vector<Panel> panels = impact_maps(subject, result, from, to);
         std::erase_if(panels, [](const Panel& panel) { return panel.series.front().x.empty(); });
-        if (subject.problem.cam->speed == 0) panels.resize(std::min<std::size_t>(panels.size(), 2));  // one phase
         if (panels.empty())
             throw render::PictureError(fmt::format(
                 "figure impact-maps: nothing strikes the cam from {:g} s to {:g} s; raise time.end", from, to));

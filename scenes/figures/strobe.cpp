@@ -1,10 +1,6 @@
 // The mechanism at several instants, in lines.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <optional>
 
 #include "render/mechanism/cam_outline.hpp"
 #include "render/mechanism/exaggeration.hpp"
@@ -67,29 +63,24 @@ void add_instant(const sim::Pose& pose, std::string instant, Sketch& to) {
                                     : VAlign::top});
 }
 
-// Writes instants that are equally spaced with the same decimals, exactly if a few are enough.
-class InstantText {
-  public:
-    explicit InstantText(const std::vector<sim::Pose>& poses) {
-        const double step = poses[1].t - poses[0].t;
-        const int few = render::decimals_of(step);
+// Of instants that are equally spaced: exact if a few decimals are enough.
+int decimals_of_instants(const std::vector<sim::Pose>& poses) {
+    const double step = poses[1].t - poses[0].t;
+    const int few = render::decimals_of(step);
+    for (int decimals = 0; decimals <= few + 3; ++decimals) {
         const auto is_exact = [&](const sim::Pose& pose) {
-            return std::abs(pose.t - std::round(pose.t * render::ten_to(decimals_)) / render::ten_to(decimals_)) <
-                   1e-6 * step;
+            const double unit = render::ten_to(decimals);
+            return std::abs(pose.t - std::round(pose.t * unit) / unit) < 1e-6 * step;
         };
-        while (decimals_ < few + 3 && !std::ranges::all_of(poses, is_exact)) ++decimals_;
-        if (!std::ranges::all_of(poses, is_exact)) decimals_ = few + 2;
+        if (std::ranges::all_of(poses, is_exact)) return decimals;
     }
-    std::string operator()(const sim::Pose& pose) const { return render::fixed(pose.t, decimals_) + " s"; }
-
-  private:
-    int decimals_ = 0;
-};
+    return few + 2;
+}
 
 // The last one, the first, and those between that stand clear of the labels before.
 void label_instants(const std::vector<sim::Pose>& poses, Sketch& to) {
     constexpr double kWidth = 0.25, kHeight = 0.07;  // of the largest label, in lengths of the beam
-    const InstantText text_of(poses);
+    const int decimals = decimals_of_instants(poses);
     const double length = norm(poses.front().centreline.back());
     std::vector<const sim::Pose*> order{&poses.back()}, labelled;
     for (std::size_t k = 0; k + 1 < poses.size(); ++k) order.push_back(&poses[k]);
@@ -100,7 +91,7 @@ void label_instants(const std::vector<sim::Pose>& poses, Sketch& to) {
         };
         if (std::ranges::any_of(labelled, is_near)) continue;
         labelled.push_back(pose);
-        add_instant(*pose, text_of(*pose), to);
+        add_instant(*pose, render::fixed(pose->t, decimals) + " s", to);
     }
 }
 

@@ -253,9 +253,8 @@ void SceneRun::write_pictures(const PlannedPictures& p) {
 }
 
 void SceneRun::write_drawing(const PlannedPictures& p, render::Film& film, const std::string& accuracy) {
-    const auto medium = ending_of(p.file) == ".pdf" ? render::Medium::pdf : render::Medium::svg;
     const auto start = Clock::now();
-    const std::string bytes = film.draw(static_cast<int>(p.draw.front()), medium,
+    const std::string bytes = film.draw(static_cast<int>(p.draw.front()), medium_of(p.file),
                                         document_of(render::plain_text(scene_.title), accuracy, metadata_json(scene_)));
     context_.times.draw += seconds_since(start);
     ++context_.work.frames_drawn;

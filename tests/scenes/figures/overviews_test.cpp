@@ -321,6 +321,13 @@ TEST(Overviews, MapsHaveAPointForEachImpact) {
     EXPECT_THROW(overview_of("impact-maps", R"(, "to": 0.1)"), render::PictureError);
 }
 
+// One collision with a cam at rest has neither a next one nor phases.
+TEST(Overviews, MapsOfACamAtRestHaveNoPhases) {
+    const auto figure = testing::simulated(
+        R"({"cam": {"speed": 0}, "time": {"end": 0.4}, "outputs": [{"type": "figure", "figure": "impact-maps"}]})");
+    EXPECT_EQ(figure.panels.size(), 1u);
+}
+
 TEST(Overviews, TakeAnIntervalAndNoOtherKeysOfSeries) {
     const auto report = [](const std::string& keys) {
         return testing::read(R"({"outputs": [{"type": "figure", )" + keys + "}]}").report();
