@@ -53,8 +53,9 @@ void expect_true_extrema(const Problem& problem, double end, int count, const st
     Request request;
     request.end_time = end;
     request.extrema = channels;
+    request.tables.push_back({instants(0, end, count), channels});
     const Result found = simulate(problem, request);
-    const Table dense = sampled(problem, channels, instants(0, end, count));
+    const Table& dense = found.tables.front();
     std::vector<double> own;  // where the extrema are said to be
     for (const Extremum& e : found.extrema)
         for (const double t : {e.t_min, e.t_max}) own.push_back(t);
@@ -247,13 +248,13 @@ TEST(Extrema, OfARunThatFailsEndBeforeIt) {
     p.beam.basis = Basis::cantilever;
     Request request;
     request.end_time = 0.33;
-    request.extrema = all_channels(p);
+    request.extrema = {channel("theta"), channel("contact_force")};
     try {
         simulate(p, request);
         FAIL() << "the inertia of these shapes is lost";
     } catch (const SolverError& error) {
         ASSERT_EQ(error.partials.size(), 1u);
-        EXPECT_GE(error.partials[0].extrema[1].max, extremum(p, "theta", 0.26).max);
+        EXPECT_GE(error.partials[0].extrema[0].max, extremum(p, "theta", 0.26).max);
     }
 }
 
@@ -286,9 +287,9 @@ TEST(Extrema, OfADistantCamExceedEverySample) {
         p.cam->centre = {1.6, 0.4};
         p.cam->speed = 4;
         p.hub.radius = radius;
-        expect_true_extrema(p, 0.5, 20'000);
+        expect_true_extrema(p, 0.2, 8'000);
         p.hub.drive = ConstantSpeed{5};
-        expect_true_extrema(p, 0.5, 20'000);
+        expect_true_extrema(p, 0.2, 8'000);
     }
 }
 
@@ -311,7 +312,7 @@ TEST(Extrema, OfFreeVibrationExceedEverySample) {
         Problem p = turning_cam(kind, 6);
         p.cam.reset();
         p.initial.q = {0.02, 0.01, 0.004, 0.002, 0.001, 0.0005};
-        expect_true_extrema(p, 0.4, 20'000);
+        expect_true_extrema(p, 0.2, 10'000);
     }
 }
 
@@ -401,7 +402,7 @@ Problem random_scene(Dice& dice) {
 // value of the motion.
 TEST(Extrema, OfRandomScenesExceedEverySample) {
     SKIP_UNDER_SANITIZERS();
-    constexpr double kEnd = 0.02, kRate = 1e5;
+    constexpr double kRate = 1e5;
     Dice dice(1);
     for (int scene = 0; scene < 200; ++scene) {
         SCOPED_TRACE(scene);
@@ -411,7 +412,8 @@ TEST(Extrema, OfRandomScenesExceedEverySample) {
             return row(c.kind).unit == std::string_view("J") || traits(c.kind).accelerated;
         };
         if (scene % 5 != 0) std::erase_if(channels, costly);
-        expect_true_extrema(p, kEnd, static_cast<int>(kEnd * kRate), channels);
+        const double end = p.beam.modes > 12 ? 0.008 : 0.02;  // [s]; many modes are slow to sample
+        expect_true_extrema(p, end, static_cast<int>(end * kRate), channels);
     }
 }
 
