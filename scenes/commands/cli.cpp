@@ -41,8 +41,8 @@ void add_exit_codes(Program& program) {
     for (const auto& [code, meaning] : kExitCodes) codes += fmt::format(" {} {},", int(code), meaning);
     codes.back() = '.';
     for (CLI::App* app : program.app.get_subcommands([](const CLI::App*) { return true; }))
-        add_note(*app, wrapped(codes, kHelpColumns));
-    add_note(program.app, wrapped(codes, kHelpColumns));
+        add_note(*app, codes);
+    add_note(program.app, codes);
 }
 
 // Names the words that the command does not take; values of unknown options go without saying.

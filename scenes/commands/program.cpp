@@ -51,8 +51,10 @@ void add_examples(CLI::App& app, std::initializer_list<const char*> examples) {
 }
 
 void add_note(CLI::App& app, const std::string& note) {
-    const std::string before = app.get_footer();
-    app.footer(fmt::format("{}{}{}\n", before, before.empty() ? "" : "\n", note));
+    std::string text = app.get_footer();
+    if (!text.empty()) text += '\n';
+    for (const std::string& line : split(note, '\n')) text += wrapped(line, kHelpColumns) + '\n';
+    app.footer(text);
 }
 
 CLI::Option* add_list(CLI::App& app, const std::string& names, std::vector<std::string>& values,

@@ -79,7 +79,11 @@ Scene with_sweep_options(Scene scene, const SweepArguments& args) {
     if (args.seed) set("seed", *args.seed);
     if (args.exponents) set("exponents", true);
     for (const std::string& over : args.over) adopt_unit_of(over, scene);
-    if (const std::string problem = read_sweep(keys, scene); !problem.empty()) throw UsageError(problem);
+    const std::string problem = read_sweep(keys, scene);
+    for (std::size_t i = 0; i < args.over.size(); ++i)
+        if (const std::string path = fmt::format("sweep.over.{}.", i); problem.starts_with(path))
+            throw UsageError(fmt::format("--over {}: {}", args.over[i], problem.substr(path.size())));
+    if (!problem.empty()) throw UsageError(problem);
     return scene;
 }
 

@@ -135,8 +135,8 @@ static void visit_series(SceneVisitor& v, SeriesKeys& series, const std::string&
     v.boolean(key("residuals"), series.residuals,
               "In \"series\": a panel of the differences below each panel with measured data.");
     v.boolean(key("horizon"), series.horizon,
-              "In \"series\": curves are paler during the intervals in which θ is not reproducible; this needs a "
-              "second run with tighter tolerances and another method.");
+              "In \"series\": curves against time are paler during the intervals in which θ is not reproducible; this "
+              "needs a second run with tighter tolerances and another method.");
 }
 
 void FigureOutput::visit(SceneVisitor& v) {

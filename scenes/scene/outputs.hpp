@@ -148,7 +148,7 @@ struct SeriesKeys {
     bool apart = false;                                     // separate panels for each of them
     bool impacts = false;                                   // lines at the beginnings of impacts
     bool residuals = false;                                 // a panel of differences below each panel with data
-    bool horizon = true;                                    // curves are paler where θ is not reproducible
+    bool horizon = false;                                   // curves are paler where θ is not reproducible
     std::optional<double> height = {};                      // [m]; nullopt: suits the panels
     std::vector<SeriesNote> notes = {};
     std::optional<double> window = {}, highest = {};  // of a spectrogram [s], [Hz]; nullopt: suits the motion

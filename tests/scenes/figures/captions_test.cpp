@@ -49,12 +49,6 @@ TEST(Captions, StateWhatAllMotionsHave) {
     EXPECT_THAT(caption, Not(HasSubstr("cam.speed")));
 }
 
-TEST(Captions, StateWhatPalerCurvesMean) {
-    EXPECT_THAT(caption_of(R"({"time": {"end": 2.2}})", "angle"),
-                HasSubstr("Where curves are paler, θ is not reproducible to 10⁻⁶ rad."));
-    EXPECT_THAT(caption_of(R"({"time": {"end": 0.4}})", "angle"), Not(HasSubstr("paler")));
-}
-
 TEST(Captions, AreEnglishBesideChinesePictures) {
     EXPECT_EQ(caption_of("{}", "deflection", Lang::zh), caption_of("{}", "deflection"));
 }

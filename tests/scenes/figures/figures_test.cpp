@@ -38,12 +38,11 @@ TEST(Figures, SchematicAndDeflectionIntegrateNothing) {
 
 TEST(Figures, ShareOneSimulationWithEachOtherAndWithTables) {
     const Scene scene = scene_from(R"({"outputs": [{"type": "figure", "figure": "energy"},
-        {"type": "figure", "channels": ["theta_dot"], "x": "theta", "horizon": false},
-        {"type": "figure", "figure": "angle"}, {"type": "trajectory"}]})");
+        {"type": "figure", "channels": ["theta_dot"], "x": "theta"},
+        {"type": "figure", "figure": "angle", "horizon": true}, {"type": "trajectory"}]})");
     const Plan p = plan(resolve(scene, {}));
     ASSERT_EQ(p.motions.size(), 4u);
     for (const MotionRequest& each : p.motions) EXPECT_EQ(each.key, p.motions.front().key);
-    // Curves of the angle alone are paler where θ is not reproducible.
     EXPECT_EQ(std::ranges::count_if(p.motions, [](const MotionRequest& each) { return each.request.horizon; }), 1);
 }
 
@@ -319,14 +318,6 @@ TEST(Figures, SchematicHasTheTorqueOnTheHub) {
     EXPECT_EQ(torques(R"({"hub": {"drive": {"type": "torque", "value": "1.5 N m"}}})"), 1);
     EXPECT_EQ(torques("{}"), 0);
     EXPECT_EQ(torques(R"({"hub": {"drive": {"type": "prescribed", "law": "constant", "speed": 1}}})"), 0);
-}
-
-TEST(Figures, BeyondTheHorizonIsPaleAndStated) {
-    const auto figure = figure_of(scene_from(R"({"time": {"end": 2.2}})"), "angle");
-    ASSERT_EQ(figure.panels[0].series.size(), 2u);
-    EXPECT_TRUE(figure.panels[0].series[0].faded);
-    EXPECT_THAT(figure.accuracy, HasSubstr("not reproducible"));
-    EXPECT_EQ(figure.panels[0].series[0].x.front(), figure.panels[0].series[1].x.back());
 }
 
 // Also what a figure computes beside the scene must be possible: without the cam nothing rests on it.

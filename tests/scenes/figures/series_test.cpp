@@ -469,10 +469,15 @@ TEST(Series, RunsOverThePhaseOfTheCam) {
 }
 
 // Of the interval alone, whatever was lost before.
-TEST(Series, StatesReproducibilityOnlyOfWhatItShows) {
+TEST(Series, BeyondTheHorizonIsPaleAndStatedWhereItShowsThat) {
     const std::string run = R"("cam": {"speed": 5}, "initial": {"angle": "45 deg"}, )";
-    EXPECT_THAT(figure_of(R"("channels": ["theta"], "to": 6)", run).accuracy, HasSubstr("not reproducible"));
-    EXPECT_THAT(figure_of(R"("channels": ["theta"], "to": 1)", run).accuracy, Not(HasSubstr("not reproducible")));
+    const auto figure = figure_of(R"("channels": ["theta"], "to": 6, "horizon": true)", run);
+    EXPECT_THAT(figure.accuracy, HasSubstr("Where curves are paler, $θ$ is not reproducible to 10^{−6} rad."));
+    ASSERT_EQ(figure.panels[0].series.size(), 2u);
+    EXPECT_TRUE(figure.panels[0].series[0].faded);
+    EXPECT_EQ(figure.panels[0].series[0].x.front(), figure.panels[0].series[1].x.back());
+    for (const char* keys : {R"("channels": ["theta"], "to": 1, "horizon": true)", R"("channels": ["theta"], "to": 6)"})
+        EXPECT_THAT(figure_of(keys, run).accuracy, Not(HasSubstr("not reproducible"))) << keys;
 }
 
 TEST(Measured, DataOfTheContactNeedACam) {

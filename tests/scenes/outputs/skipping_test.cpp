@@ -198,13 +198,13 @@ TEST(Skipping, PicturesThatCompareTheSameMotionsIntegrateEachOnce) {
 // ---- figures ---------------------------------------------------------------------------------------
 
 constexpr const char* kFigures = R"({"type": "figure", "figure": "energy", "file": "e.svg"},
-    {"type": "figure", "channels": ["theta_dot"], "horizon": false, "file": "p.png", "dpi": 60})";
+    {"type": "figure", "channels": ["theta_dot"], "file": "p.png", "dpi": 60})";
 
 TEST(Skipping, FiguresShareOneMotionAndFinishedOnesAreLeftAlone) {
     const Folder folder;
     folder.write("s.json", scene(kFigures));
     const Finished first = shell(folder, "$BEAMCAM run -v s.json");
-    EXPECT_EQ(count(first, "integrations"), 1);  // neither shows where θ is reproducible
+    EXPECT_EQ(count(first, "integrations"), 1);
     EXPECT_EQ(count(first, "figures_drawn"), 2);
     for (const char* what : {"gl_contexts", "encoder_modules", "frames_drawn"})
         EXPECT_EQ(count(first, what), 0) << what;
