@@ -40,8 +40,7 @@ void add_exit_codes(Program& program) {
     std::string codes = "Exit codes:";
     for (const auto& [code, meaning] : kExitCodes) codes += fmt::format(" {} {},", int(code), meaning);
     codes.back() = '.';
-    for (CLI::App* app : program.app.get_subcommands([](const CLI::App*) { return true; }))
-        add_note(*app, codes);
+    for (CLI::App* app : program.app.get_subcommands([](const CLI::App*) { return true; })) add_note(*app, codes);
     add_note(program.app, codes);
 }
 
