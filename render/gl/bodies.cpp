@@ -25,8 +25,8 @@ Materials materials(const Palette& palette) {
             .bracket = rgb(dark ? 0x4A5361 : 0x8C97A6)};
 }
 
-constexpr double kClampDepth = 0.6, kBracketFront = -0.75;              // as the depths of the header
-constexpr double kShadow = 0.14, kContactShadow = 0.25, kFloor = 0.05;  // opacities
+constexpr double kClampDepth = 0.6, kBracketFront = -0.75;  // as the depths of the header
+constexpr double kShadow = 0.14, kFloor = 0.05;             // opacities
 
 // ---- the bodies --------------------------------------------------------------------------------
 
@@ -69,7 +69,6 @@ class Bodies {
 
     BodyMesh mesh() const;
     std::vector<ShadowVertex> shadows() const;
-    void add_contact_shadow(std::vector<ShadowVertex>& to) const;
 
   private:
     Vec2 up(Vec2 p) const { return {p.x - stage_.middle.x, stage_.middle.y - p.y}; }
@@ -197,9 +196,9 @@ BodyMesh Bodies::mesh() const {
     return mesh;
 }
 
-// The light is at the upper left.
+// The light is at the upper left. The wall is as near as the beam is thin, whose shadow would look like another beam.
 void Bodies::wall_shadows(SoftShadows& out) const {
-    const double u = stage_.unit, soft = 15 * u;
+    const double u = std::min(stage_.unit, depth_ / 14), soft = 15 * u;
     const Vec2 fall{9 * u, -14 * u};
     std::vector<SoftShadows::Station> beam;
     for (std::size_t i = 0; i < bar_.low.size(); ++i) beam.push_back({bar_.low[i] + fall, bar_.high[i] + fall, soft});
@@ -254,16 +253,6 @@ std::vector<ShadowVertex> Bodies::shadows() const {
     return out.corners;
 }
 
-// Around a narrow gap, on both bodies.
-void Bodies::add_contact_shadow(std::vector<ShadowVertex>& to) const {
-    if (!shape_.touch) return;
-    const double reach = 12 * stage_.unit, narrow = std::clamp(1 - shape_.touch->gap / reach, 0.0, 1.0);
-    const Prism around = cylinder(up(shape_.touch->at), reach / 2);
-    SoftShadows shadow{view_, Ground::wall, 0.5 * stage_.wide};
-    shadow.polygon(around.outline, around.outward, reach / 2, kContactShadow * narrow);
-    to.insert(to.end(), shadow.corners.begin(), shadow.corners.end());
-}
-
 }  // namespace
 
 BodyScene body_scene(const MechanismShape& shape, const Palette& palette, const Stage& stage, const Projection& view) {
@@ -271,8 +260,6 @@ BodyScene body_scene(const MechanismShape& shape, const Palette& palette, const 
     const Bodies bodies(shape, palette, stage, view);
     BodyMesh mesh = bodies.mesh();
     BodyScene scene{std::move(mesh.vertices), std::move(mesh.corners), bodies.shadows()};
-    scene.below = scene.shadows.size();
-    bodies.add_contact_shadow(scene.shadows);
     const double away = std::min(view.distance, kEye * std::max(stage.box.w, stage.box.h));
     scene.eye = {away * view.axes[2].x, away * view.axes[2].y, away * view.axes[2].z};
     scene.fade *= stage.softness;

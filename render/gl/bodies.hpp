@@ -39,11 +39,10 @@ struct Stage {
 struct BodyScene {
     std::vector<BodyVertex> vertices;
     std::vector<std::uint32_t> corners;
-    std::vector<ShadowVertex> shadows;
-    std::size_t below = 0;  // the first shadows, which are under the bodies; the rest is over them
-    Vec3 eye{};             // from which highlights are seen
-    double fade = 60;       // width in which shadows fade out at the edges of the picture [px]
-    DirtyTiles seen{};      // the tiles of bodies and shadows; the rest of the picture is transparent
+    std::vector<ShadowVertex> shadows;  // under the bodies
+    Vec3 eye{};                         // from which highlights are seen
+    double fade = 60;                   // width in which shadows fade out at the edges of the picture [px]
+    DirtyTiles seen{};                  // the tiles of bodies and shadows; the rest of the picture is transparent
 };
 
 BodyScene body_scene(const MechanismShape& shape, const Palette& palette, const Stage& stage, const Projection& view);

@@ -233,9 +233,7 @@ MechanismShape mechanism_shape(const sim::Problem& problem, const sim::Pose& pos
     s.floor = s.hinge.y + floor_depth(problem, look.camera, look.unit);
     if (problem.cam) s.disc = disc_shape(problem, pose, look.camera, look.unit);
     if (beam.contact)
-        s.touch = {look.camera.to_pixels(beam.contact->on_disc),
-                   {beam.contact->normal.x, -beam.contact->normal.y},
-                   std::max(beam.contact->gap, 0.0) * look.camera.scale};
+        s.touch = {look.camera.to_pixels(beam.contact->on_disc), {beam.contact->normal.x, -beam.contact->normal.y}};
     continue_into_hub(s);
     return s;
 }

@@ -36,9 +36,8 @@ struct MechanismShape {
     double floor = 0;              // on which the brackets of hub and cam stand [px]
     std::optional<DiscShape> disc;
     struct Touch {
-        Vec2 at;         // on the cam, where it is nearest to the beam [px]
-        Vec2 normal;     // from the cam to the beam, y down
-        double gap = 0;  // [px]
+        Vec2 at;      // on the cam, where it is nearest to the beam [px]
+        Vec2 normal;  // from the cam to the beam, y down
         bool operator==(const Touch&) const = default;
     };
     std::optional<Touch> touch;

@@ -69,10 +69,8 @@ class Renderer final : public BodyRenderer {
         context_->make_current();
         if (!bodies_.program) prepare();
         glClear(GL_COLOR_BUFFER_BIT);
-        const auto all = static_cast<GLsizei>(scene.shadows.size()), below = static_cast<GLsizei>(scene.below);
-        draw_shadows(scene, 0, below);
+        draw_shadows(scene);
         draw_bodies(scene);
-        draw_shadows(scene, below, all);
         glFinish();
         const auto drawn = Clock::now();
         out = Image(width_, height_);
@@ -98,11 +96,11 @@ class Renderer final : public BodyRenderer {
     }
 
     // Where shadows meet, the darker one counts.
-    void draw_shadows(const BodyScene& scene, GLsizei first, GLsizei end) const {
+    void draw_shadows(const BodyScene& scene) const {
         shadows_.begin(scene.shadows, size());
         set(shadows_.program, "fade", float(std::max(scene.fade, 1e-3)));
-        glBlendEquation(first == 0 ? GL_MAX : GL_FUNC_ADD);
-        glDrawArrays(GL_TRIANGLES, first, end - first);
+        glBlendEquation(GL_MAX);
+        glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(scene.shadows.size()));
     }
 
     void draw_bodies(const BodyScene& scene) const {

@@ -28,7 +28,7 @@ MechanismShape mechanism() {
     shape.hinge = {100, 500}, shape.floor = 640;
     shape.hub = 20, shape.pin = 6;
     shape.disc = DiscShape{{240, 470}, {235, 465}, 50, 10, 0.3, {270, 460}, 5};
-    shape.touch = {{212, 428}, {-0.55, -0.83}, 0};
+    shape.touch = {{212, 428}, {-0.55, -0.83}};
     return shape;
 }
 
@@ -72,31 +72,12 @@ TEST(BodyScene, TheNearerOfBeamAndCamIsDrawnLater) {
     }
 }
 
-TEST(BodyScene, TheShadowOfTheContactEndsWhereTheGapIsWide) {
-    MechanismShape shape = mechanism();
-    const auto darkest = [&](double gap) {
-        shape.touch->gap = gap;
-        const BodyScene scene = scene_of(shape, Projection::front(kBox.centre()));
-        float most = 0;
-        for (std::size_t i = scene.below; i < scene.shadows.size(); ++i) {
-            const ShadowVertex& v = scene.shadows[i];
-            most = std::max(most, v.opacity);
-            EXPECT_LT(std::hypot(v.pixel[0] - 212, v.pixel[1] - 428), 12.01);
-        }
-        return most;
-    };
-    EXPECT_FLOAT_EQ(darkest(0), 0.25F);
-    EXPECT_FLOAT_EQ(darkest(6), 0.125F);
-    EXPECT_EQ(darkest(12), 0);
-}
-
 TEST(GlBodies, ShadowsAreFaintAndFadeAtTheEdgesOfThePicture) {
     SKIP_WITHOUT_GL();
     for (const Ground ground : {Ground::wall, Ground::floor}) {
         const Projection view = ground == Ground::wall ? Projection::front(kBox.centre()) : looking(0.4, 0.2);
         BodyScene scene = scene_of(mechanism(), view, ground);
         scene.corners.clear();  // shadows alone
-        scene.shadows.resize(scene.below);
         Image image;
         make_body_renderer(960, 720)->draw(scene, image);
         std::uint32_t most = 0;
