@@ -197,6 +197,30 @@ std::string widest_speed_text(const std::vector<double>& speeds) {
     return widest;
 }
 
+// A still shows a round instant with all its digits, that of an event to a ten-thousandth of the unit.
+static int decimals_of_still(double t) {
+    constexpr int kMost = 6, kOfEvents = 4;
+    for (int decimals = 1; decimals <= kMost; ++decimals) {
+        const double scaled = t * std::pow(10.0, decimals);
+        if (std::abs(scaled - std::round(scaled)) < 1e-6) return decimals;
+    }
+    return kOfEvents;
+}
+
+// One digit beyond the smallest step or, from three decimals on, as many as distinguish frames: above a second four, as
+// 9 is a nanosecond.
+static int decimals_of_frames(const std::vector<double>& times, double unit, double span) {
+    // Steps of few frames are ignored, and those of rounding: the beginnings and ends of freezes.
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < times.size(); ++i)
+        if (times[i] - times[i - 1] > 1e-9 * span) steps.push_back(times[i] - times[i - 1]);
+    const auto rare = static_cast<std::ptrdiff_t>(steps.size() / 20);
+    std::ranges::nth_element(steps, steps.begin() + rare);
+    const double step = steps[static_cast<std::size_t>(rare)];
+    const int least = -static_cast<int>(std::floor(std::log10(step / unit)));
+    return std::clamp(std::max(std::min(least + 1, 3), least), 1, span < 1 ? 9 : 4);
+}
+
 TimeFormat time_format(const std::vector<double>& times, double latest) {
     TimeFormat out;
     const double span = std::max({std::abs(times.front()), std::abs(times.back()), std::abs(latest)});
@@ -206,29 +230,10 @@ TimeFormat time_format(const std::vector<double>& times, double latest) {
         for (const auto& u : kUnits)
             if (std::string(p.symbol) == u.prefix) out.unit = p.factor, out.symbol = u.symbol;
     }
-    if (times.back() == times.front()) {
-        // A still shows a round instant with all its digits, that of an event to a ten-thousandth of the unit.
-        constexpr int kMost = 6, kOfEvents = 4;
-        const double t = times.front() / out.unit;
-        const auto is_whole = [&] {
-            const double scaled = t * std::pow(10.0, out.decimals);
-            return std::abs(scaled - std::round(scaled)) < 1e-6;
-        };
-        for (out.decimals = 1; out.decimals <= kMost; ++out.decimals)
-            if (is_whole()) return out;
-        out.decimals = kOfEvents;
-        return out;
-    }
-    // Steps of few frames are ignored, and those of rounding: the beginnings and ends of freezes.
-    std::vector<double> steps;
-    for (std::size_t i = 1; i < times.size(); ++i)
-        if (times[i] - times[i - 1] > 1e-9 * span) steps.push_back(times[i] - times[i - 1]);
-    const auto rare = static_cast<std::ptrdiff_t>(steps.size() / 20);
-    std::ranges::nth_element(steps, steps.begin() + rare);
-    const double step = steps[static_cast<std::size_t>(rare)];
-    // One digit beyond the smallest step or, from three decimals on, as many as distinguish frames; 9 is a nanosecond.
-    const int least = -static_cast<int>(std::floor(std::log10(step / out.unit)));
-    out.decimals = std::clamp(std::max(std::min(least + 1, 3), least), 1, 9);
+    out.decimals = times.back() == times.front() ? decimals_of_still(times.front() / out.unit)
+                                                 : decimals_of_frames(times, out.unit, span);
+    // Below a second, milliseconds take the place of more than three decimals.
+    if (out.unit == 1 && span < 1 && out.decimals > 3) out = {1e-3, "ms", out.decimals - 3};
     return out;
 }
 

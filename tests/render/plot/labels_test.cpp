@@ -94,13 +94,16 @@ TEST(Labels, FreezesLeaveTheClockItsThreeDecimals) {
     EXPECT_EQ(time_format(times).decimals, 3);
 }
 
-// Slow motion needs more than three decimals only if its frames are less than a millisecond apart.
+// Slow motion below a second is in milliseconds if its frames are less than one apart.
 TEST(Labels, TheClockHasNoMoreDecimalsThanItNeeds) {
     const auto decimals = [](double step) { return time_format({0.2, 0.2 + step, 0.2 + 2 * step}).decimals; };
     EXPECT_EQ(decimals(0.1), 2);
     EXPECT_EQ(decimals(1 / 60.0), 3);
     EXPECT_EQ(decimals(0.0033), 3);
-    EXPECT_EQ(decimals(0.0005), 4);
+    EXPECT_EQ(decimals(0.0005), 1);
+    EXPECT_STREQ(time_format({0.2, 0.2005, 0.201}).symbol, "ms");
+    EXPECT_STREQ(time_format({0.2, 0.2005, 1.2}).symbol, "s");
+    EXPECT_STREQ(time_format({0.28152518347}, 0.5).symbol, "ms");
 }
 
 TEST(Labels, SpeedsOfRotationAreWrittenAsTheUserWroteThem) {
