@@ -8,6 +8,8 @@
 namespace beamcam::render {
 namespace {
 
+constexpr double kBetweenRows = 24, kBetweenColumns = 30;  // [design px]
+
 bool is_tall(int width, int height) { return height > 1.35 * width; }
 
 void place_grid(Layout& out, const LayoutNode& node, const Box& box);
@@ -18,7 +20,7 @@ std::vector<LayoutNode> children_that_fit(double unit, const LayoutNode& node, c
     const bool rows = node.kind == LayoutNode::Kind::rows;
     std::vector<LayoutNode> children = node.children;
     for (;;) {
-        const double gap = (rows ? 14 : 30) * unit, n = static_cast<double>(children.size());
+        const double gap = (rows ? kBetweenRows : kBetweenColumns) * unit, n = static_cast<double>(children.size());
         const double room = (rows ? box.h : box.w) - gap * (n - 1);
         double shares = 0;
         for (const LayoutNode& child : children) shares += child.share;
@@ -43,7 +45,7 @@ void place_grid(Layout& out, const LayoutNode& node, const Box& box) {
     if (node.kind == LayoutNode::Kind::empty) return;
     const bool rows = node.kind == LayoutNode::Kind::rows;
     const std::vector<LayoutNode> children = children_that_fit(out.unit, node, box);
-    const double gap = (rows ? 14 : 30) * out.unit, n = static_cast<double>(children.size());
+    const double gap = (rows ? kBetweenRows : kBetweenColumns) * out.unit, n = static_cast<double>(children.size());
     const double room = (rows ? box.h : box.w) - gap * (n - 1);
     if (!(room > 0)) return;
     double shares = 0, at = rows ? box.y : box.x;
@@ -65,7 +67,7 @@ const PanelSlot* Layout::first(PanelKind kind) const {
 LayoutNode standard_grid(int width, int height, const std::vector<PanelSpec>& side, int members) {
     using enum LayoutNode::Kind;
     constexpr int kRowOfMechanisms = 3;  // from this number on mechanisms have the whole width
-    constexpr double kBesideCharts = 1.55, kAboveRow = 1.8, kAboveCharts = 1.3;  // shares of the mechanisms
+    constexpr double kBesideCharts = 1.55, kAboveRow = 1.4, kAboveCharts = 1.3;  // shares of the mechanisms
     const bool beside = is_wide(width, height) && members < kRowOfMechanisms, tall = is_tall(width, height);
     LayoutNode charts{.kind = beside || tall ? rows : columns};
     for (const PanelSpec& spec : side) charts.children.push_back({.panel = spec});

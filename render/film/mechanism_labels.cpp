@@ -22,8 +22,7 @@ void draw_letter(const MechanismScene& s, Vec2 owner, Vec2 middle, const char* m
     middle.x = std::clamp(middle.x, within.x, std::max(within.x, within.right()));
     middle.y = std::clamp(middle.y, within.y, std::max(within.y, within.bottom()));
     TextStyle style{.size = size, .color = color, .align = HAlign::centre};
-    // In the solid view a halo over soft shadows would glow; a near camera needs it.
-    if (!s.view || s.at.moved) style.halo = s.at.palette.paper;
+    if (!s.view) style.halo = s.at.palette.paper;  // over soft shadows it would glow
     s.canvas.text(middle + Vec2{0, 0.32 * size}, markup, style);
 }
 
@@ -82,29 +81,30 @@ void draw_angle(const MechanismScene& s) {
 // ---- ω -----------------------------------------------------------------------------------------
 
 // The arrow is outside the circle that the disc sweeps, on the side away from the beam and beside the bracket; in the
-// solid view, where it is before the bracket, it is below. Positive speed is clockwise.
+// solid view, where a body may be anywhere around it, it is on the face of the disc. Positive speed is clockwise.
 void draw_cam_speed(const MechanismScene& s) {
     const std::optional<sim::Cam>& cam = s.at.problem().cam;
     if (!cam || cam->speed == 0 || !s.at.labelled()) return;
     const Vec2 axis = s.at.px(s.pose.cam_centre);
     const double to_cam = std::atan2(cam->centre.y, cam->centre.x), u = s.at.unit;
     const double beam_side = std::remainder(s.at.problem().initial.angle - to_cam, 2 * pi) >= 0 ? 1 : -1;
-    const double middle = to_cam - beam_side * (s.view ? 0.4 : 0.2) * pi;
-    const double radius = cam_reach(s.at.problem()) * s.at.look.camera.scale + 20 * u;
-    const double half = std::min(0.8, 150 * u / radius) / 2, head = 17 * u;
+    const double middle = to_cam - beam_side * 0.2 * pi, reach = cam_reach(s.at.problem()) * s.at.look.camera.scale;
+    const double radius = s.view ? 0.45 * reach : reach + 20 * u;
+    const Color color = s.view ? rgb(0xF4F6F9) : s.at.palette.muted;
+    const double half = std::min(s.view ? 1.4 : 0.8, 150 * u / radius) / 2, head = 17 * u;
     const double from = middle + (cam->speed > 0 ? half : -half), to = 2 * middle - from;
     const double back = (to < from ? 1 : -1) * 0.9 * head / radius;
     const Vec2 on_arc = s.on(axis + down(middle) * radius);
-    if (!s.at.shows(on_arc)) return;
+    if (!s.at.shows(on_arc) || radius < 2 * head) return;
     s.arc(axis, radius, from, to + back);
-    s.canvas.stroke({s.at.palette.muted, 2.6 * u, {}, Cap::butt});
+    s.canvas.stroke({color, 2.6 * u, {}, Cap::butt});
     const Vec2 tip = s.on(axis + down(to) * radius);
     Vec2 along = tip - s.on(axis + down(to + back) * radius);
     // Seen from aside, the head keeps its length.
     if (const double length = norm(along); s.view && length > 0)
         along = along * (std::max(0.9 * head, length) / length);
-    s.canvas.arrow(tip - along, tip, {s.at.palette.muted, 2.6 * u}, {head});
-    draw_letter(s, on_arc, s.on(axis + down(middle) * (radius + 22 * u)), "$ω$", s.at.palette.muted);
+    s.canvas.arrow(tip - along, tip, {color, 2.6 * u}, {head});
+    draw_letter(s, on_arc, s.on(axis + down(middle) * (radius + 22 * u)), "$ω$", color);
 }
 
 // ---- F -----------------------------------------------------------------------------------------

@@ -16,7 +16,7 @@ static void name_base_line(const MechanismScene& s, const std::vector<Vec2>& lin
     const bool slow = setup.speeds.empty() ? setup.frames() == 1 : setup.speeds[std::size_t(s.frame)] <= kSlow;
     if (!slow || !s.at.labelled() || s.at.ghosts) return;
     const double size = s.at.context.look.letters.words;
-    const Box inside = s.at.box.inset(1.6 * size);
+    const Box inside = s.at.box.inset(1.6 * size + s.at.fade());
     std::size_t last = line.size();  // the point nearest to the tip that is drawn and in the view
     for (std::size_t i = 0; i < line.size(); ++i)
         if (!std::isnan(line[i].x) && inside.contains({line[i].x, line[i].y, 0, 0})) last = i;

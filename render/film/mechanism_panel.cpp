@@ -94,9 +94,8 @@ void MechanismPanel::draw_still(Canvas& canvas, const MechanismView& at) const {
 // What a near camera cuts off fades out towards the edges of its panel but the lower one, the more the nearer it is.
 static void fade_edges(Canvas& canvas, const MechanismView& at) {
     constexpr int kSteps = 24;
-    constexpr double kWidth = 60;  // [design px]
     if (at.context.setup->view.transparent) return;
-    const double step = std::round(std::clamp(at.zoom() - 1, 0.0, 1.0) * kWidth * at.unit / kSteps);
+    const double step = std::round(at.fade() / kSteps);
     if (step < 1) return;
     const Box& b = at.box;
     for (int k = 0; k < kSteps; ++k) {

@@ -1,6 +1,7 @@
 // Position and scale of a mechanism in a film, and the state of drawing one frame of it.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -39,6 +40,7 @@ struct MechanismView {
     // The same view with another camera: shapes grow with the zoom; lines and letters do not.
     MechanismView with_camera(const CameraFrame& frame_camera) const;
     double zoom() const { return look.unit / unit; }
+    double fade() const { return 60 * unit * std::clamp(zoom() - 1, 0.0, 1.0); }  // width of the edges of a near view
     bool shows(Vec2 px) const {
         return !moved || (px.x > box.x && px.x < box.right() && px.y > box.y && px.y < box.bottom());
     }

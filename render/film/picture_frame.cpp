@@ -14,7 +14,6 @@ Letters letters_of(double design_pixel) {
     return {34 / 16.0 * words, 20 / 16.0 * words, words};
 }
 
-constexpr double kScales = 720;      // width of two colour scales [design px]
 constexpr double kCaptionBand = 48;  // height [design px]
 
 }  // namespace
@@ -45,7 +44,8 @@ PictureFrame picture_frame(int width, int height, const Shown& shown) {
     const bool has_title = shown.title && w >= 320 * u && h >= 300 * u,
                has_parameters = shown.parameters && w >= 560 * u && h >= 480 * u;
     const bool has_clock = (shown.clock || shown.legend) && w >= 230 * u && h >= 190 * u;
-    const bool is_large = w >= (wide ? 1300 : 860) * u && h >= 600 * u, has_scales = shown.legend && is_large;
+    const bool is_large = w >= (wide ? 1200 : 860) * u && h >= 600 * u, has_scales = shown.legend && is_large;
+    const double scales = std::max(560 * u, 30 * out.letters.words);  // width of two
     if (has_title) {
         out.title = Box{margin, f.top, w - 2 * margin, 64 * u};
         f.top += 64 * u;
@@ -60,7 +60,7 @@ PictureFrame picture_frame(int width, int height, const Shown& shown) {
     }
     const bool apart = has_scales && !wide;  // beside the clock there is not enough space
     if (apart) {
-        out.scales = Box{w - margin - kScales * u, f.bottom - 56 * u, kScales * u, 56 * u};
+        out.scales = Box{w - margin - scales, f.bottom - 56 * u, scales, 56 * u};
         f.bottom -= 64 * u;
     }
     if (has_clock) {
@@ -68,7 +68,7 @@ PictureFrame picture_frame(int width, int height, const Shown& shown) {
         f.bottom -= 56 * u;
     }
     if (has_scales && !apart) {
-        out.scales = Box{w - margin - kScales * u, out.clock->y, kScales * u, 56 * u};
+        out.scales = Box{w - margin - scales, out.clock->y, scales, 56 * u};
         out.clock->w = out.scales->x - 30 * u - out.clock->x;
     }
     if (has_title || has_parameters) f.top += 10 * u;

@@ -19,6 +19,7 @@ using render::LayoutNode, render::PanelKind, render::PanelSpec, render::quantity
 using sim::ChannelKind;
 
 constexpr double kShown = 2.5, kFade = 0.2;  // of captions [s of the film]
+constexpr double kNear = 2, kMove = 1.2;     // zoom at the contact; duration of the camera's movement [s of the film]
 
 Instant at_time(double t) { return {.kind = Instant::Kind::time, .t = t}; }
 
@@ -165,7 +166,6 @@ void tell_collision(PictureOutput& film, const sim::Collision& c, double liftoff
 
 PictureOutput told_impact(PictureOutput film, const Scene& scene, const sim::Result& motion, const FindEvents& find) {
     constexpr double kApproach = 2.5, kCollision = 3, kHold = 2.5;  // durations in the film [s]
-    constexpr double kNear = 2, kMove = 1.2;                        // zoom; duration of the camera's movement [s]
     FrameSpan& span = film.span;
     const std::size_t number = collision_after(span.from, motion);
     const sim::Collision& c = motion.collisions[number];
@@ -231,6 +231,10 @@ PictureOutput told_settle(PictureOutput film, const Scene& scene, const sim::Res
     for (std::size_t k = 1; k < span.speed.intervals.size(); ++k)  // the film never slows down
         span.speed.intervals[k].factor = std::max(span.speed.intervals[k].factor, span.speed.intervals[k - 1].factor);
     span.hold = kHold;
+    film.view.keyframes = {{.at = at_time(slow_until),
+                            .zoom = kNear,
+                            .follow = render::Anchor{render::Anchor::Kind::contact},
+                            .over = kMove}};
     tell_beginning(film, scene.problem);
     tell(film, first.t_start, touch_of(first), kAtTouch);
     film.span.events.back().show = kAtTouch + 3 * kFade;  // it is over before the beam is high above the cam
