@@ -22,11 +22,12 @@ class ChartPanel : public FilmPanel {
                  chart_style(context), *context.fonts) {}
     void draw_background(Canvas& canvas) const override { chart_.draw_background(canvas); }
     void draw(Canvas& canvas, int frame, Style, State*) const override {
-        chart_.draw_moving(canvas, context_.clock.at(frame), readings(frame));
+        chart_.draw_moving(canvas, context_.clock.at(frame), readings(frame), peaks(frame));
     }
 
   protected:
     virtual std::vector<double> readings(int frame) const = 0;
+    virtual std::vector<Vec2> peaks(int) const { return {}; }
     const FilmContext& context_;
 
   private:

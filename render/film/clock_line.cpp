@@ -1,8 +1,8 @@
 #include "render/film/clock_line.hpp"
 
 #include <algorithm>
-#include <limits>
-#include <span>
+
+#include "render/film/strip_content.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -19,39 +19,8 @@ std::string peak_text(const FilmContext& context, double force) {
 
 }  // namespace
 
-double recent_peak(const FilmContext& context, int member, int frame) {
-    constexpr double kHeld = 1;  // [s of the film], freezes not counted; in a still, of the motion
-    const std::vector<sim::Impact>& impacts = context.motion(member).impacts;
-    const std::vector<TraceSample>& samples = context.samples[static_cast<std::size_t>(member)];
-    const double t = context.clock.at(frame);
-    const auto later = std::ranges::upper_bound(impacts, t, {}, &sim::Impact::t_start);
-    if (later == impacts.begin()) return 0;
-    auto first_impact = std::prev(later);  // of the collision
-    while (first_impact != impacts.begin() && std::prev(first_impact)->collision == std::prev(later)->collision)
-        --first_impact;
-    double peak = 0, end = -std::numeric_limits<double>::infinity();
-    for (const sim::Impact& impact : std::span(first_impact, later)) {
-        end = std::max(end, std::min(impact.t_end.value_or(t), t));
-        if (impact.t_end && *impact.t_end <= t) {
-            peak = std::max(peak, impact.force_peak.value_or(0));
-            continue;
-        }
-        const auto first = std::ranges::lower_bound(samples, impact.t_start, {}, &TraceSample::t);
-        for (auto sample = first; sample != samples.end() && sample->t < t; ++sample)
-            peak = std::max(peak, sample->force);
-        if (const sim::Pose pose = context.pose(member, frame); pose.nearest)
-            peak = std::max(peak, pose.nearest->force);
-    }
-    if (context.frames() == 1) return t - end < kHeld ? peak : 0;
-    if (end < context.clock.times.front()) return 0;
-    const auto ended =
-        static_cast<std::size_t>(std::ranges::lower_bound(context.clock.times, end) - context.clock.times.begin());
-    const int since = context.clock.moved[static_cast<std::size_t>(frame)] - context.clock.moved[ended];
-    return since < kHeld * context.setup->fps ? peak : 0;
-}
-
 // Without room in the smaller size, the last pills are left out.
-ClockLine::ClockLine(const FilmContext& context) : context_(context) {
+ClockLine::ClockLine(const FilmContext& context) : context_(context), peaks_(context) {
     const FilmSetup& setup = *context.setup;
     const bool mechanism = context.places.first(PanelKind::mechanism) != nullptr;
     if (!context.places.clock) return;
@@ -62,7 +31,9 @@ ClockLine::ClockLine(const FilmContext& context) : context_(context) {
     if (setup.view.show.legend && !setup.speeds.empty())
         pills_.push_back(
             {Pill::Kind::speed, context.look.translate(widest_speed_text(setup.speeds)), context.look.palette.contact});
-    for (int m = 0; m < context.members() && mechanism && setup.view.show.labels; ++m)
+    const bool in_chart =
+        std::ranges::any_of(context.places.panels, [](const auto& slot) { return shows_peaks(slot.spec); });
+    for (int m = 0; m < context.members() && mechanism && !in_chart && setup.view.show.labels; ++m)
         if (!context.motion(m).impacts.empty() && context.scales.largest_force > 0 &&
             context.motion(m).problem.contact.model == sim::ContactModel::compliant)
             pills_.push_back({Pill::Kind::peak,
@@ -124,7 +95,7 @@ std::string ClockLine::words(const Pill& pill, int frame) const {
         case Pill::Kind::peak:
             break;
     }
-    const double peak = recent_peak(context_, pill.member, frame);
+    const double peak = peaks_.of(pill.member, context_.clock.at(frame)).y;
     return peak > 0 ? peak_text(context_, peak) : std::string();
 }
 

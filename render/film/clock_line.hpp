@@ -1,16 +1,13 @@
-// The clock, and beside it exaggeration, playback speed and the peak forces of collisions. Sizes and places are the
-// same for all frames.
+// The clock, and beside it exaggeration, playback speed and, in a picture without a chart of the contact force, the
+// peak forces of collisions. Sizes and places are the same for all frames.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "render/film/panel.hpp"
+#include "render/film/force_curve.hpp"
 
 namespace beamcam::render {
-
-// The largest force so far of a motion's latest collision, until a second of the film after its end; 0: none [N].
-double recent_peak(const FilmContext& context, int member, int frame);
 
 class ClockLine {
   public:
@@ -34,6 +31,7 @@ class ClockLine {
     TextStyle pill_style(const Pill& pill) const;
 
     const FilmContext& context_;
+    Peaks peaks_;
     std::vector<Pill> pills_;
     bool steady_ = true;  // one speed throughout
     bool has_room_ = true;

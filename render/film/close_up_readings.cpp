@@ -36,22 +36,27 @@ std::string collision_counter(const Motion& motion, double t) {
     }
     const double over = end + sim::collision_gap(motion.problem);
     if (t > over) return {};
-    const std::string counted = fmt::format("collision {} · impact {}", last.collision, number);
+    const std::string collision = fmt::format("collision {}", last.collision);
+    if (of == 1) return collision;
     // The collision may go on after the end of the motion.
-    return over <= motion.end ? fmt::format("{} of {}", counted, of) : counted;
-}
-
-// " · slides" while stick–slip friction is at its limit μF, else " · sticks"; empty without contact or another
-// friction.
-std::string friction_word(const sim::Problem& problem, const sim::Nearest& contact) {
-    constexpr double kRounding = 1e-6;
-    const auto* law = std::get_if<sim::StickSlipFriction>(&problem.contact.friction);
-    if (!law || !(contact.force > 0)) return {};
-    const double limit = law->coefficient * contact.force;
-    return std::abs(std::abs(contact.friction) - limit) <= kRounding * limit ? " · slides" : " · sticks";
+    return fmt::format("{} · impact {}", collision, number) + (over <= motion.end ? fmt::format(" of {}", of) : "");
 }
 
 }  // namespace
+
+bool sticks(const sim::Problem& problem, double force, double friction) {
+    constexpr double kRounding = 1e-6;
+    const auto* law = std::get_if<sim::StickSlipFriction>(&problem.contact.friction);
+    if (!law || !(force > 0)) return false;
+    const double limit = law->coefficient * force;
+    return std::abs(std::abs(friction) - limit) > kRounding * limit;
+}
+
+// " · sticks" or " · slides"; empty without contact or stick–slip friction.
+static std::string friction_word(const sim::Problem& problem, const sim::Nearest& contact) {
+    if (!std::holds_alternative<sim::StickSlipFriction>(problem.contact.friction) || !(contact.force > 0)) return {};
+    return sticks(problem, contact.force, contact.friction) ? " · sticks" : " · slides";
+}
 
 void CloseUpReadings::draw(Canvas& canvas, const sim::Pose& pose, double face) const {
     const sim::Nearest& near = *pose.nearest;
@@ -75,18 +80,15 @@ void CloseUpReadings::draw_count(Canvas& canvas, const sim::Pose& pose, double f
     const double u = context.look.unit;
     const std::string count =
         context.look.translate(collision_counter(motion, pose.t) + friction_word(motion.problem, *pose.nearest));
-    const TextStyle style{.size = context.look.letters.words, .color = p.ink, .align = HAlign::right};
-    const double room = plot.w -
-                        canvas.measure(context.look.translate("beam"), {.size = context.look.letters.words}).w - 40 * u,
-                 wide = canvas.measure(count, style).w;
-    if (count.empty() || wide > room) return;
-    const double line = plot.y + 2 * u + 1.1 * context.look.letters.words,
-                 bottom = line + 0.4 * context.look.letters.words, right = plot.right() - 10 * u,
-                 left = right - wide - 8 * u;
-    const Color background = close_up_background(p);
-    canvas.rectangle({left, plot.y + 3 * u, plot.right() - 3 * u - left, bottom - plot.y - 3 * u});
-    canvas.fill(face > (plot.y + bottom) / 2 ? mix(background, p.motion, 0.30) : background);
-    canvas.text({right, line}, count, style);
+    const double line = plot.y + 2 * u + 1.1 * context.look.letters.words;
+    const bool on_beam = face > line;
+    const TextStyle style{.size = context.look.letters.words,
+                          .color = p.ink,
+                          .align = HAlign::right,
+                          .halo = on_beam ? mix(close_up_background(p), p.motion, 0.30) : close_up_background(p)};
+    const double room =
+        plot.w - canvas.measure(context.look.translate("beam"), {.size = context.look.letters.words}).w - 64 * u;
+    if (canvas.measure(count, style).w < room) canvas.text({plot.right() - 10 * u, line}, count, style);
 }
 
 }  // namespace beamcam::render

@@ -5,6 +5,9 @@
 
 namespace beamcam::render {
 
+// Whether stick–slip friction is below its limit μF, so that the faces stick; false without contact or such friction.
+bool sticks(const sim::Problem& problem, double force, double friction);
+
 struct CloseUpReadings {
     const FilmContext& context;
     const Motion& motion;
@@ -15,7 +18,7 @@ struct CloseUpReadings {
     void draw(Canvas& canvas, const sim::Pose& pose, double face) const;
 
   private:
-    // In the upper right corner, on a plate that hides the line of the beam's face.
+    // In the upper right corner, with a halo that hides the line of the beam's face.
     void draw_count(Canvas& canvas, const sim::Pose& pose, double face) const;
 };
 

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
-
-#include "render/film/panel.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -66,6 +63,28 @@ figure::Series force_curve(const Motion& motion, Range span) {
     for (const Row& row : rows)
         if (row.t >= span.low && row.t <= span.high) curve.add(row.t, row.force);
     return curve;
+}
+
+Peaks::Peaks(const FilmContext& context) : context_(context) {
+    for (int m = 0; m < context.members(); ++m) forces_.push_back(force_curve(context.motion(m), context.clock.span));
+}
+
+Vec2 Peaks::of(int member, double t) const {
+    const std::vector<sim::Impact>& impacts = context_.motion(member).impacts;
+    const figure::Series& force = forces_[static_cast<std::size_t>(member)];
+    const auto later = std::ranges::upper_bound(impacts, t, {}, &sim::Impact::t_start);
+    Vec2 peak{kNan, kNan};
+    if (later == impacts.begin()) return peak;
+    auto first = std::prev(later);  // impact of the collision
+    while (first != impacts.begin() && std::prev(first)->collision == first->collision) --first;
+    const auto see = [&](double at, double value) {
+        if (value > 0 && !(value <= peak.y)) peak = {at, value};
+    };
+    const auto from = std::ranges::lower_bound(force.x, first->t_start) - force.x.begin(),
+               to = std::ranges::upper_bound(force.x, t) - force.x.begin();
+    for (auto i = static_cast<std::size_t>(from); i < static_cast<std::size_t>(to); ++i) see(force.x[i], force.y[i]);
+    see(t, value_at(force.x, force.y, t));
+    return peak;
 }
 
 }  // namespace beamcam::render

@@ -1,7 +1,9 @@
-// The contact force as a curve against time.
+// The contact force as a curve against time, and its peaks.
 #pragma once
 
-#include "render/film/film.hpp"
+#include <vector>
+
+#include "render/film/panel.hpp"
 #include "render/plot/figure.hpp"
 
 namespace beamcam::render {
@@ -10,5 +12,17 @@ namespace beamcam::render {
 // nearest row; an impact between two rows becomes a triangle. Rows keep their values, because they are at the instants
 // of frames. An impact that does not end within the rows gets no peak.
 figure::Series force_curve(const Motion& motion, Range span);
+
+// The largest forces so far of the motions' latest collisions.
+class Peaks {
+  public:
+    explicit Peaks(const FilmContext& context);
+    // Instant and force [s, N], by linear interpolation at t; NaN: none.
+    Vec2 of(int member, double t) const;
+
+  private:
+    const FilmContext& context_;
+    std::vector<figure::Series> forces_;  // of each motion
+};
 
 }  // namespace beamcam::render

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "render/base/error.hpp"
 #include "render/mechanism/exaggeration.hpp"
@@ -18,6 +19,8 @@ namespace {
 using sim::Channel;
 using sim::ChannelKind;
 using sim::Pose;
+
+constexpr double kTurn = 2 * std::numbers::pi;
 
 bool has_force(const Motion& motion) {
     const auto* force = column(motion.chart, {ChannelKind::contact_force, 0});
@@ -160,9 +163,11 @@ std::string Units::unit(const std::string& si) const {
 }
 
 double FilmContext::shown_factor(Channel channel) const {
+    if (scales.turns && channel.kind == ChannelKind::theta) return 1 / kTurn;
     return setup->units.factor(sim::unit(channel, setup->problem));
 }
 std::string FilmContext::shown_unit(Channel channel) const {
+    if (scales.turns && channel.kind == ChannelKind::theta) return look.translate("turns");
     return setup->units.unit(sim::unit(channel, setup->problem));
 }
 
@@ -235,6 +240,7 @@ void FilmContext::choose_scales() {
             const Pose p = one.surveyed(k);
             for (double value : p.moment) largest = std::max(largest, std::abs(value));
             if (p.nearest) force = std::max(force, p.nearest->force);
+            scales.turns = scales.turns || (setup->units.degrees && std::abs(p.theta) > 2 * kTurn);
         }
         // A moment that bends the beam by less than a billionth of its length is a rounding error.
         const double negligible = 1e-9 * one.problem.beam.bending_stiffness() / one.problem.beam.length;

@@ -34,6 +34,7 @@ struct FilmScales {
     double force = 0;          // end of the colour scale: the largest force, rounded up; 0: no force [N]
     double arrow_force = 0;    // largest force of all frames, that of the longest arrow [N]
     double moment = 0;         // end of the colour scale; 0: no colouring [N m]
+    bool turns = false;        // θ is in turns instead of degrees, because it exceeds two
 };
 
 // Colours, sizes and language of a film.

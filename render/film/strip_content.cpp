@@ -7,6 +7,7 @@
 #include <span>
 #include <string_view>
 
+#include "render/film/close_up_readings.hpp"
 #include "render/film/force_curve.hpp"
 #include "render/plot/channel_label.hpp"
 
@@ -81,7 +82,7 @@ Range range_of(const FilmContext& context, const PanelSpec& spec, const std::vec
                 see(context.shown_factor(channel) * pose.theta);
     }
     const auto& [any, low, high] = all;
-    if (is_force(channel)) return {0, any && high > 0 ? 1.02 * high : 1};
+    if (is_force(channel)) return {0, any && high > 0 ? 1.12 * high : 1};  // the values of peaks are above them
     if (!any) return {0, 1};
     // The axis of a constant: ± a twentieth of it, of a radian, or of one unit. A length below the rounding of
     // positions is zero.
@@ -204,22 +205,30 @@ static void add_data(const FilmContext& context, const PanelSpec& spec, ChartCon
         }
 }
 
-// The limits of stick–slip friction beside the friction force: it slides on ±μF, and sticks up to ±μ_s F, which is
-// dotted where it is another. Returns their symbols for the heading.
-static std::string add_sliding_limits(const FilmContext& context, const PanelSpec& spec, ChartContent& c) {
+// The friction force of stick–slip friction has its limits beside it: it slides on ±μF, and sticks up to ±μ_s F, which
+// is dotted where it is another. The intervals in which it sticks are shaded. Returns the symbols for the heading.
+static std::string add_sticking(const FilmContext& context, const PanelSpec& spec, ChartContent& c) {
     const auto* law = std::get_if<sim::StickSlipFriction>(&context.setup->problem.contact.friction);
     const sim::Table& chart = context.setup->chart;
-    const auto *t = column(chart, {ChannelKind::t, 0}), *force = column(chart, {ChannelKind::contact_force, 0});
-    if (!law || !t || !force || context.members() > 1 || spec.channels.size() > 1 ||
+    const auto *t = column(chart, {ChannelKind::t, 0}), *force = column(chart, {ChannelKind::contact_force, 0}),
+               *friction = column(chart, {ChannelKind::friction_force, 0});
+    if (!law || !t || !force || !friction || context.members() > 1 || spec.channels.size() > 1 ||
         spec.channels.front().kind != ChannelKind::friction_force)
         return {};
+    const Palette& p = context.look.palette;
+    for (std::size_t i = 0; i < t->size(); ++i) {
+        if (!sticks(context.setup->problem, (*force)[i], (*friction)[i])) continue;
+        if (i == 0 || c.panel.spans.empty() || c.panel.spans.back().to != (*t)[i - 1])
+            c.panel.spans.push_back({(*t)[i], (*t)[i], context.look.translate("sticks"), p.motion.faded(0.13)});
+        c.panel.spans.back().to = (*t)[i];
+    }
     std::vector<double> limits{law->coefficient};
     if (law->static_coefficient && *law->static_coefficient != law->coefficient)
         limits.push_back(*law->static_coefficient);
     for (std::size_t k = 0; k < limits.size(); ++k)
         for (const double limit : {-limits[k], limits[k]}) {
-            figure::Series curve{.color = context.look.palette.muted};
-            curve.faint = context.look.palette.tint(context.look.palette.muted, 0.25);
+            figure::Series curve{.color = p.muted};
+            curve.faint = p.tint(p.muted, 0.25);
             curve.dash = FilmContext::dash_of(k + 1);
             for (std::size_t i = 0; i < t->size(); ++i) curve.add((*t)[i], limit * (*force)[i]);
             c.panel.series.push_back(std::move(curve));
@@ -286,7 +295,7 @@ ChartContent strip_content(const FilmContext& context, const PanelSpec& spec) {
             const Color color = alone && contact ? p.contact : curve_color(context, spec.channels[i], i, m);
             curve.color = color;
             curve.faint = alone ? (contact ? p.contact_faint : p.motion_faint) : p.tint(color, 0.25);
-            curve.filled = alone && is_force(first);
+            curve.filled = single && is_force(first);
             if (context.members() > 1 && !context.names_in_panels())
                 curve.label = context.labels[static_cast<std::size_t>(m)] + ":", c.names_first = true;  // "ω = 0: 12"
             else if (context.members() == 1 && !single)
@@ -298,8 +307,8 @@ ChartContent strip_content(const FilmContext& context, const PanelSpec& spec) {
             c.panel.series.push_back(std::move(curve));
         }
     }
-    symbols += add_sliding_limits(context, spec, c);
-    c.blank_zeros = is_force(first) && context.members() > 1;  // a row of zeros would say nothing
+    symbols += add_sticking(context, spec, c);
+    if (shows_peaks(spec)) c.rows = static_cast<std::size_t>(context.members());
     Range values = range_of(context, spec, c.panel.series);
     if (single && dotted) values = add_places(context, shown_time(context, spec), c);
     add_data(context, spec, c, values);

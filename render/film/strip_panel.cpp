@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "render/film/chart_panel.hpp"
+#include "render/film/force_curve.hpp"
 #include "render/film/strip_content.hpp"
 #include "render/plot/ticks.hpp"
 
@@ -17,7 +18,9 @@ using sim::Channel;
 class StripPanel final : public ChartPanel {
   public:
     StripPanel(const FilmContext& context, const PanelSlot& slot)
-        : ChartPanel(context, strip_content(context, slot.spec), slot.box), spec_(slot.spec) {}
+        : ChartPanel(context, strip_content(context, slot.spec), slot.box), spec_(slot.spec) {
+        if (shows_peaks(spec_) && context.setup->view.show.labels) peaks_.emplace(context);
+    }
 
   private:
     std::vector<double> readings(int frame) const override {
@@ -28,7 +31,13 @@ class StripPanel final : public ChartPanel {
             out.push_back(measured);
         return out;
     }
+    std::vector<Vec2> peaks(int frame) const override {
+        std::vector<Vec2> out;
+        for (int m = 0; peaks_ && m < context_.members(); ++m) out.push_back(peaks_->of(m, context_.clock.at(frame)));
+        return out;
+    }
     PanelSpec spec_;
+    std::optional<Peaks> peaks_;
 };
 
 // ---- a strip that shows one collision after the other --------------------------------------------
@@ -57,6 +66,7 @@ class CollisionPanel final : public FilmPanel {
             now.shown = end - i.t_start > kLasting ? i.t_start + kShown : now.span.high;
             last_ = i.collision;
         }
+        if (shows_peaks(spec_) && context.setup->view.show.labels) peaks_.emplace(context);
         content_ = strip_content(context, spec_);
         content_.panel.events.clear();
         content_.past_only = context.frames() > 1;  // the picture of a touch shows the force that follows
@@ -76,7 +86,9 @@ class CollisionPanel final : public FilmPanel {
         s.chart->draw_background(canvas);
         std::vector<double> readings;
         for (const Channel channel : spec_.channels) readings.push_back(reading(context_, 0, frame, channel));
-        s.chart->draw_moving(canvas, now - start(s.which), readings);
+        std::vector<Vec2> peaks;
+        if (peaks_) peaks.push_back(peaks_->of(0, now) - Vec2{start(s.which), 0});
+        s.chart->draw_moving(canvas, now - start(s.which), readings, peaks);
     }
 
   private:
@@ -114,6 +126,7 @@ class CollisionPanel final : public FilmPanel {
         const Prefix prefix = time.high < 1 ? prefix_for(time.high) : Prefix{"", 1};
         c.set_time(time, prefix.factor, fmt::format("($t$ − $t$_{{0}}) / {}s", prefix.symbol));
         const double t0 = start(which);
+        for (figure::Span& span : c.panel.spans) span.from -= t0, span.to -= t0;
         for (figure::Series curve : curves_) {
             for (Range& pale : curve.pale_within) pale.low -= t0, pale.high -= t0;
             const std::vector<double> t = std::exchange(curve.x, {}), v = std::exchange(curve.y, {});
@@ -128,6 +141,7 @@ class CollisionPanel final : public FilmPanel {
 
     const FilmContext& context_;
     PanelSpec spec_;
+    std::optional<Peaks> peaks_;
     Box box_, plot_;
     std::vector<Collision> spans_;
     int last_ = -1;

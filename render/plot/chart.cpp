@@ -2,13 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace beamcam::render {
 namespace {
 
-constexpr double kBetweenReadings = 18;  // [design px]
+constexpr double kBetweenReadings = 18;               // [design px]
+constexpr double kBetweenRows = 1, kLowestRow = 1.1;  // in sizes of the numbers
+
+void draw_all(Canvas& canvas, const std::vector<figure::Plot>& rows, const figure::Interval& part) {
+    for (const figure::Plot& row : rows) row.draw_data(canvas, part);
+}
+
+// The row of a curve.
+const figure::Plot& row_of(const std::vector<figure::Plot>& rows, std::size_t curve) {
+    return rows[std::min(curve, rows.size() - 1)];
+}
 
 }  // namespace
 
@@ -29,11 +38,33 @@ void ChartContent::set_values(const Range& values, const std::string& symbol, co
 }
 
 Chart::Chart(ChartContent content, const Box& box, const Box& plot, const figure::PlotStyle& style, const Fonts& fonts)
-    : c_(std::move(content)), box_(box), style_(style), palette_(*style.palette), plot_(c_.panel, style_, "chart") {
-    Image none(1, 1);
-    plot_.place(Canvas(none, fonts), plot);
-    digits_ = std::clamp(2 - static_cast<int>(std::floor(std::log10(plot_.y().step()) + 1e-9)), 0, 6);
+    : c_(std::move(content)), box_(box), area_(plot), style_(style), palette_(*style.palette) {
+    make_rows(fonts);
+    const double finest = plots_[0].y().step() / 50;  // of the reading
+    digits_ = std::clamp(-static_cast<int>(std::floor(std::log10(finest) + 1e-9)), 0, 6);
     if (!windowed()) draw_whole_past(fonts);
+}
+
+// Rows that would be too low are one.
+void Chart::make_rows(const Fonts& fonts) {
+    const auto wanted = static_cast<double>(c_.rows);
+    const double gap = std::round(kBetweenRows * style_.numbers), high = std::floor((area_.h + gap) / wanted - gap);
+    const std::size_t rows = high < kLowestRow * style_.numbers ? 1 : c_.rows;
+    for (std::size_t k = 0; k < rows; ++k) {
+        figure::Panel& row = panels_.emplace_back(c_.panel);
+        if (rows == 1) break;
+        row.series.assign(c_.panel.series.begin() + std::ptrdiff_t(rows), c_.panel.series.end());
+        row.series.push_back(c_.panel.series[k]);
+        std::erase_if(row.events, [k](const figure::EventTick& at) { return at.lane != static_cast<int>(k); });
+        for (figure::EventTick& at : row.events) at.lane = 0, at.lanes = 1;
+        row.y.round_ends = false;
+    }
+    Image none(1, 1);
+    for (std::size_t k = 0; k < rows; ++k) {
+        const double bottom = area_.bottom() - static_cast<double>(rows - 1 - k) * (high + gap);
+        plots_.emplace_back(panels_[k], style_, "chart", k + 1 == rows)
+            .place(Canvas(none, fonts), rows == 1 ? area_ : Box{area_.x, bottom - high, area_.w, high});
+    }
 }
 
 Range window_around(double t, double length) {
@@ -42,7 +73,7 @@ Range window_around(double t, double length) {
 }
 
 int Chart::cursor_column(const Range& view, double t) const {
-    const Box& plot = plot_.box();
+    const Box& plot = area_;
     return static_cast<int>(std::lround(plot.x + plot.w * (t - view.low) / (view.high - view.low)));
 }
 // Half of the widest stroke or dot, and a column of its edge.
@@ -53,18 +84,15 @@ int Chart::past_column(double t) const {
 // ---- background, past, moving part ---------------------------------------------------------------------
 
 void Chart::draw_background(Canvas& canvas) const {
-    const Box& plot = plot_.box();
     draw_heading(canvas);
-    if (c_.instead.empty())
-        plot_.draw_y_axis(canvas);
-    else
-        canvas.text(plot.centre() + Vec2{0, 6 * style_.unit}, c_.instead,
-                    {.size = 19 * style_.unit, .color = palette_.muted, .align = HAlign::centre, .max_width = plot.w});
-    if (!windowed()) {
-        plot_.draw_x_axis(canvas);
-        if (!c_.past_only) plot_.draw_data(canvas, whole(false));
-    }
-    plot_.draw_frame(canvas);
+    if (!c_.instead.empty())
+        canvas.text(area_.centre() + Vec2{0, 6 * style_.unit}, c_.instead,
+                    {.size = 19 * style_.unit, .color = palette_.muted, .align = HAlign::centre, .max_width = area_.w});
+    for (const figure::Plot& plot : plots_)
+        if (c_.instead.empty()) plot.draw_y_axis(canvas);
+    if (!windowed()) plots_.back().draw_x_axis(canvas);
+    if (!windowed() && !c_.past_only) draw_all(canvas, plots_, whole(false));
+    for (const figure::Plot& plot : plots_) plot.draw_frame(canvas);
 }
 
 void Chart::draw_whole_past(const Fonts& fonts) {
@@ -72,48 +100,50 @@ void Chart::draw_whole_past(const Fonts& fonts) {
     past_ = Image(static_cast<int>(box.w), static_cast<int>(box.h));
     Canvas canvas(past_, fonts);
     canvas.halo_of_all = palette_.halo_of_all();
-    figure::Plot moved = plot_;
-    moved.move_data({-box.x, -box.y});
-    moved.draw_data(canvas, whole(true));
+    std::vector<figure::Plot> moved = plots_;
+    for (figure::Plot& plot : moved) plot.move_data({-box.x, -box.y});
+    draw_all(canvas, moved, whole(true));
 }
 
-void Chart::draw_moving(Canvas& canvas, double t, std::span<const double> readings) const {
-    const Box& plot = plot_.box();
+void Chart::draw_moving(Canvas& canvas, double t, std::span<const double> readings, std::span<const Vec2> peaks) const {
     const Range view = windowed() ? window_around(t, *c_.window) : time();
     // Past and future meet at the cursor: each is drawn within its own part of the plot.
-    const double cut = cursor_column(view, t) + 1, top = plot.y - kAround;
+    const double cut = cursor_column(view, t) + 1, top = area_.y - kAround;
     if (!windowed() && t < time().low) return;
     const bool over = !windowed() && t > time().high;  // everything is past
-    double from = plot.x;
+    double from = area_.x;
     if (!windowed() && !canvas.is_vector()) {
         const Box box = past_box();
-        from = std::max<double>(over ? std::lround(plot.right() + 1) : past_column(t), box.x);
+        from = std::max<double>(over ? std::lround(area_.right() + 1) : past_column(t), box.x);
         canvas.image_part(past_, static_cast<int>(box.x), static_cast<int>(box.y), {0, 0, from - box.x, box.h});
-        if (over) return;
+        if (over) return draw_peaks(canvas, plots_, from, {}, peaks);
     }
-    std::optional<figure::Plot> shown;  // the window
+    std::vector<figure::Plot> moved;  // the window
+    if (windowed()) moved = plots_;
+    for (figure::Plot& plot : moved) plot.show_x(canvas, view.low, view.high);
+    const std::vector<figure::Plot>& shown = windowed() ? moved : plots_;
     if (windowed()) {
-        shown = plot_;
-        shown->show_x(canvas, view.low, view.high);
-        shown->draw_x_axis(canvas);
-        canvas.clip({cut, top, plot.right() - cut, plot.h + 9}, [&] {
-            shown->draw_data(canvas, {view.low, view.high, false});
+        shown.back().draw_x_axis(canvas);
+        canvas.clip({cut, top, area_.right() - cut, area_.h + 9}, [&] {
+            draw_all(canvas, shown, {view.low, view.high, false});
         });
     }
     // Some columns before the first are drawn, too: the curve starts there.
-    const double column = (view.high - view.low) / plot.w, before = 4 * style_.unit + 4;
-    const figure::Interval past{std::max(view.low, view.low + (from - plot.x - before) * column),
+    const double column = (view.high - view.low) / area_.w, before = 4 * style_.unit + 4;
+    const figure::Interval past{std::max(view.low, view.low + (from - area_.x - before) * column),
                                 std::min(t, view.high), true};
-    canvas.clip({from, top, cut - from, past_box().h}, [&] { (shown ? *shown : plot_).draw_data(canvas, past); });
+    canvas.clip({from, top, cut - from, past_box().h}, [&] { draw_all(canvas, shown, past); });
     if (!over) draw_cursor(canvas, cut - 0.5, readings);
+    draw_peaks(canvas, shown, cut, readings, peaks);
 }
 
 void Chart::draw_cursor(Canvas& canvas, double x, std::span<const double> readings) const {
-    const Box& plot = plot_.box();
     const double u = style_.unit;
-    canvas.line({x, plot.y - 6 * u}, {x, plot.bottom()}, {palette_.ink, std::max(1.0, 1.4 * u), {}, Cap::butt});
+    canvas.line({x, area_.y - 6 * u}, {x, area_.bottom()}, {palette_.ink, std::max(1.0, 1.4 * u), {}, Cap::butt});
     for (std::size_t i = 0; i < readings.size(); ++i) {
-        const double at = plot_.along_y(readings[i]);
+        const figure::Plot& row = row_of(plots_, i);
+        const Box& plot = row.box();
+        const double at = row.along_y(readings[i]);
         // A value between the rows may lie beyond their range: its number is shown, but a dot would be misplaced.
         if (!(at > plot.y - 8 * u && at < plot.bottom() + 8 * u)) continue;
         canvas.circle({x, std::clamp(at, plot.y - 4 * u, plot.bottom() + 4 * u)}, 5.5 * u);
@@ -121,6 +151,29 @@ void Chart::draw_cursor(Canvas& canvas, double x, std::span<const double> readin
         canvas.stroke({palette_.paper, 1.6 * u});
     }
     draw_readings(canvas, readings);
+}
+
+// Above its point, or to the left where the row has no room, and before the cursor; none that the reading states, nor
+// where curves share a row.
+void Chart::draw_peaks(Canvas& canvas, const std::vector<figure::Plot>& rows, double cursor,
+                       std::span<const double> readings, std::span<const Vec2> peaks) const {
+    const double size = style_.numbers, gap = 8 * style_.unit;
+    for (std::size_t i = 0; i < peaks.size() && c_.rows == rows.size(); ++i) {
+        const figure::Plot& row = row_of(rows, i);
+        const Vec2 at = row.at(peaks[i].x, peaks[i].y);
+        if (!(at.x >= area_.x && at.x < cursor)) continue;
+        const TextStyle style{.size = size,
+                              .color = readable(palette_, reading_color(i)),
+                              .weight = Weight::medium,
+                              .align = HAlign::right,
+                              .halo = palette_.paper};
+        const std::string text = reading_text(peaks[i].y);
+        if (i < readings.size() && text == reading_text(readings[i])) continue;
+        const double wide = canvas.measure(text, style).w;
+        const bool above = at.y > row.box().y + 0.5 * size;
+        const double right = above ? std::min(at.x + wide / 2, cursor - gap) : at.x - gap;
+        canvas.text({std::max(right, area_.x + wide), at.y + (above ? -0.45 : 0.35) * size}, text, style);
+    }
 }
 
 // ---- the heading's line ------------------------------------------------------------------------
@@ -138,17 +191,17 @@ Color Chart::reading_color(std::size_t curve) const {
 
 // The readings are beside it.
 void Chart::draw_heading(Canvas& canvas) const {
-    const std::string name = plot_.y().name();
-    const double room = plot_.box().w - reading_width(canvas, true, true);
-    canvas.text({plot_.box().x, box_.y + 26 * style_.unit},
+    const std::string name = plots_[0].y().name();
+    const double room = area_.w - reading_width(canvas, true, true);
+    canvas.text({area_.x, box_.y + 26 * style_.unit},
                 first_that_fits(canvas, {c_.words + name, c_.short_words + name, name}, heading_style(), room),
                 heading_style());
 }
 
 // In the unit of the axis, with the decimals that its ticks ask for.
 std::string Chart::reading_text(double value) const {
-    const std::string unit = plot_.y().unit();
-    return fixed(plot_.y().tick_value(value), digits_) + (unit.empty() || unit == "°" ? unit : "\u00A0" + unit);
+    const std::string unit = plots_[0].y().unit();
+    return fixed(plots_[0].y().tick_value(value), digits_) + (unit.empty() || unit == "°" ? unit : "\u00A0" + unit);
 }
 
 double Chart::widest_reading(Canvas& canvas) const {
@@ -177,15 +230,14 @@ double Chart::reading_width(Canvas& canvas, bool names, bool values) const {
 // At the right end, that of the last curve outermost; without names, or names alone, if there is no room for both.
 void Chart::draw_readings(Canvas& canvas, std::span<const double> readings) const {
     const double u = style_.unit;
-    const double room = plot_.box().w - canvas.measure(plot_.y().name(), heading_style()).w, baseline = box_.y + 26 * u;
+    const double room = area_.w - canvas.measure(plots_[0].y().name(), heading_style()).w, baseline = box_.y + 26 * u;
     const bool named = reading_width(canvas, true, true) <= room;
     const bool names_only = !named && c_.names_first && reading_width(canvas, true, false) <= room;
     if (!named && !names_only && readings.size() > 1 && reading_width(canvas, false, true) > room) return;
     const double widest = widest_reading(canvas);
-    double right = plot_.box().right() + 8 * u;
+    double right = area_.right() + 8 * u;
     for (std::size_t i = readings.size(); i-- > 0;) {
-        const bool blank = c_.blank_zeros && readings[i] == 0;
-        const double v = blank ? std::numeric_limits<double>::quiet_NaN() : readings[i];
+        const double v = readings[i];
         const bool has_name = (named || names_only) && i < c_.panel.series.size();
         const std::string label = has_name ? name_of(c_.panel.series[i], named) : std::string();
         const TextStyle style = reading_style(readable(palette_, reading_color(i)));

@@ -1,14 +1,17 @@
 // A strip chart of a film: a plot whose curves are faint in the future and strong in the past, with a heading, a cursor
-// and readings; over the time of the whole film, or over a window of time that moves with the instant.
+// and readings; over the time of the whole film, or over a window of time that moves with the instant. Its first curves
+// may have a row each, with the same axes.
 //
 // Over the whole film the past is an image, drawn once, of which the columns up to a few before the cursor are shown;
 // these few are drawn from the rows up to the instant. Thus no later row is ever drawn as past.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "render/draw/canvas.hpp"
 #include "render/draw/geometry.hpp"
@@ -26,7 +29,7 @@ struct ChartContent {
     figure::Panel panel = {};           // x is time [s]
     std::optional<double> window = {};  // [s]
     bool names_first = false;  // rather the names of the curves than their readings, if only one of them has room
-    bool blank_zeros = false;  // a reading of zero has no number
+    std::size_t rows = 1;      // the first curves that have a row each, where there is room; the others are in all rows
 
     Range time() const { return {*panel.x.from, *panel.x.to}; }
     Range values() const { return {*panel.y.from, *panel.y.to}; }
@@ -45,17 +48,21 @@ class Chart {
 
     void draw_background(Canvas& canvas) const;  // axes, labels, the future
     // The curves until t, and the cursor, which is only within the time of the chart. `readings`: the values of the
-    // curves at the cursor; NaN: none.
-    void draw_moving(Canvas& canvas, double t, std::span<const double> readings) const;
+    // curves at the cursor; NaN: none. `peaks`: points of the curves that have their value beside them; NaN: none.
+    void draw_moving(Canvas& canvas, double t, std::span<const double> readings,
+                     std::span<const Vec2> peaks = {}) const;
     Range time() const { return c_.time(); }
 
   private:
     static constexpr double kAround = 8;  // above and beside the plot that the past may reach [px]
     bool windowed() const { return c_.window.has_value(); }
     Box past_box() const {
-        const Box around = plot_.box().inset(-kAround);
-        return {around.x, around.y, around.w, around.h - kAround + std::ceil(plot_.numbers_below())};
+        const Box around = area_.inset(-kAround);
+        return {around.x, around.y, around.w, around.h - kAround + std::ceil(plots_[0].numbers_below())};
     }
+    void make_rows(const Fonts& fonts);
+    void draw_peaks(Canvas& canvas, const std::vector<figure::Plot>& rows, double cursor,
+                    std::span<const double> readings, std::span<const Vec2> peaks) const;
     // The first column that may hold future at t: the stroke of a later row may reach into it.
     int past_column(double t) const;
     void draw_whole_past(const Fonts& fonts);
@@ -73,10 +80,11 @@ class Chart {
     double reading_width(Canvas& canvas, bool names, bool values) const;  // of all readings together [px]
 
     ChartContent c_;
-    Box box_;
+    Box box_, area_;  // area: of all rows
     figure::PlotStyle style_;
     const Palette& palette_;
-    figure::Plot plot_;
+    std::vector<figure::Panel> panels_;  // of the rows
+    std::vector<figure::Plot> plots_;
     Image past_;      // all curves as past, of the size of `past_box`; empty with a window
     int digits_ = 0;  // decimals of the reading
 };

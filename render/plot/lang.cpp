@@ -84,6 +84,7 @@ constexpr Phrase kPhrases[] = {
     {"frozen", "定格"},
     {"Collision {}", "碰撞 {}"},
     {"collision {}", "碰撞 {}"},
+    {"turns", "圈"},
     {"sticks", "粘着"},
     {"slides", "滑动"},
     {"impact {} of {}", "冲击 {}/{}"},

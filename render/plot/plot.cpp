@@ -222,7 +222,13 @@ void Plot::draw_y_axis(Painter& on) const {
     }
     TextStyle text = style_->tick_numbers();
     text.align = HAlign::right;
-    draw_ticks(on, y_->ticks(), box_, Side::left,
+    // Where numbers would touch each other, the first and the last remain.
+    std::vector<Tick> ticks = y_->ticks();
+    const auto is_minor = [](const Tick& tick) { return !tick.major; };
+    ticks.erase(std::ranges::find_if(ticks, is_minor), ticks.end());
+    if (y_->step() / (y_->ends().high - y_->ends().low) * box_.h < 1.1 * style_->numbers)
+        for (std::size_t i = 1; i + 1 < ticks.size(); ++i) ticks[i].label.clear();
+    draw_ticks(on, ticks, box_, Side::left,
                {.pen = {style_->palette->grid, style_->frame, {}, Cap::butt},
                 .major = box_.w,
                 .numbers = text,

@@ -65,10 +65,11 @@ class Plot {
 
     void draw_bands(Painter& on, const Interval& part = {}) const;
     void draw_dots_and_events(Painter& on, const Interval& part = {}) const;
-    void draw_data(Painter& on, const Interval& part) const;  // both, and curves between them; films
+    void draw_data(Painter& on, const Interval& part) const;  // these, and spans and curves; films
 
   private:
     void fit_x(const Painter& on, const Axis& axis, const Extent& data);
+    void draw_spans(Painter& on, const Interval& part) const;
     void draw_curve(Painter& on, const Series& curve, const Interval& part) const;
 
     const Panel* panel_;

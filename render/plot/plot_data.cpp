@@ -119,7 +119,24 @@ void Plot::draw_dots_and_events(Painter& on, const Interval& part) const {
     }
 }
 
+// Intervals of the past, with their names where they have room.
+void Plot::draw_spans(Painter& on, const Interval& part) const {
+    TextStyle text = style_->tick_numbers();
+    text.align = HAlign::centre;
+    for (const Span& span : panel_->spans) {
+        const double from = along_x(std::max(span.from, part.from)) + shift_.x,
+                     to = along_x(std::min(span.to, part.to)) + shift_.x, whole = along_x(span.to) - along_x(span.from);
+        if (!part.past || !(from < to)) continue;
+        on.rectangle({from, box_.y + shift_.y, to - from, box_.h});
+        on.fill(span.color);
+        if (on.measure(span.label, text).w + 0.8 * style_->numbers < whole)
+            on.text({along_x(0.5 * (span.from + span.to)) + shift_.x, box_.y + shift_.y + 0.9 * style_->numbers},
+                    span.label, text);
+    }
+}
+
 void Plot::draw_data(Painter& on, const Interval& part) const {
+    draw_spans(on, part);
     draw_bands(on, part);
     draw_dots_and_events(on, part);  // below the curves, which many dots would hide
     for (const Series& curve : panel_->series) draw_curve(on, curve, part);

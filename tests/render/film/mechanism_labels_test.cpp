@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/film/clock_line.hpp"
+#include "render/film/force_curve.hpp"
 #include "render/film/mechanism_legend.hpp"
 #include "tests/render/drawing.hpp"
 #include "tests/render/synthetic.hpp"
@@ -174,32 +174,32 @@ sim::Impact brief_impact(double start, double force, int collision = 0) {
     return impact;
 }
 
-TEST(Peaks, OfACollisionAreHeldForASecondOfTheFilm) {
-    FilmSetup setup = test::flat_film({.duration = 2}, 640, 360);
-    setup.impacts = {brief_impact(0.3, 100), brief_impact(0.34, 20), brief_impact(1.6, 50, 1)};
-    const FilmContext context(std::make_shared<const FilmSetup>(setup));
-    const auto at = [&](double t) { return recent_peak(context, 0, static_cast<int>(std::lround(t * setup.fps))); };
-    EXPECT_EQ(at(0.28), 0);
-    EXPECT_EQ(at(0.32), 100);
-    EXPECT_EQ(at(0.5), 100);  // of the whole collision
-    EXPECT_EQ(at(1.3), 100);
-    EXPECT_EQ(at(1.5), 0);
-    EXPECT_EQ(at(1.7), 50);
+void without_rows(FilmSetup& setup) {
+    for (sim::Table* table : {&setup.chart, &setup.trace})
+        for (auto& column : table->values) column.clear();
 }
 
-// A freeze does not shorten it; a collision before the film has none.
-TEST(Peaks, OutlastAFreezeAndBelongToTheFilm) {
+TEST(Peaks, AreThoseOfTheLatestCollision) {
     FilmSetup setup = test::flat_film({.duration = 2}, 640, 360);
-    setup.impacts = {brief_impact(0.3, 100)};
-    constexpr std::size_t kFirst = 24, kFrozen = 120;
-    setup.poses.insert(setup.poses.begin() + kFirst, kFrozen, setup.poses[kFirst]);
-    const auto peak = [&](std::size_t frame) {
-        const FilmContext context(std::make_shared<const FilmSetup>(setup));
-        return recent_peak(context, 0, static_cast<int>(frame));
-    };
-    EXPECT_EQ(peak(kFirst + kFrozen - 1), 100);
-    setup.poses.erase(setup.poses.begin(), setup.poses.begin() + kFirst);
-    EXPECT_EQ(peak(0), 0);
+    setup.impacts = {brief_impact(0.3, 100), brief_impact(0.34, 20), brief_impact(1.6, 50, 1)};
+    without_rows(setup);
+    setup.trace.values.assign(setup.trace.values.size(), {0, 0});
+    setup.trace.values[0] = {0, 2};
+    const FilmContext context(std::make_shared<const FilmSetup>(setup));
+    const Peaks peaks(context);
+    EXPECT_TRUE(std::isnan(peaks.of(0, 0.28).y));
+    EXPECT_EQ(peaks.of(0, 0.32).y, 100);
+    EXPECT_NEAR(peaks.of(0, 0.32).x, 0.3005, 1e-9);
+    EXPECT_EQ(peaks.of(0, 0.5).y, 100);  // of the whole collision
+    EXPECT_EQ(peaks.of(0, 1.7).y, 50);
+}
+
+// A collision before the film has none.
+TEST(Peaks, BelongToTheFilm) {
+    FilmSetup setup = test::flat_film({.duration = 2}, 640, 360);
+    setup.impacts = {brief_impact(-0.3, 100)};
+    const FilmContext context(std::make_shared<const FilmSetup>(setup));
+    EXPECT_TRUE(std::isnan(Peaks(context).of(0, 0).y));
 }
 
 // While a contact lasts, its peak is the largest force so far.
@@ -207,8 +207,7 @@ TEST(Peaks, OfAContactThatLastsGrow) {
     FilmSetup setup = test::flat_film({.duration = 1}, 640, 360);
     setup.impacts = {brief_impact(0.3, 100)};
     setup.impacts[0].t_end = 0.6;
-    for (auto& column : setup.trace.values) column.clear();
-    for (sim::Pose& pose : setup.poses) pose.nearest->force = 0;
+    without_rows(setup);
     for (int i = 0; i <= 30; ++i) {
         const double t = 0.3 + 0.01 * i;
         for (auto& column : setup.trace.values) column.push_back(0.1);
@@ -216,9 +215,10 @@ TEST(Peaks, OfAContactThatLastsGrow) {
         setup.trace.values[3].back() = 100 * std::sin(std::numbers::pi * (t - 0.3) / 0.3);
     }
     const FilmContext context(std::make_shared<const FilmSetup>(setup));
-    EXPECT_NEAR(recent_peak(context, 0, 24), 50 * std::sqrt(3), 20);
-    EXPECT_NEAR(recent_peak(context, 0, 33), 100, 1);
-    EXPECT_EQ(recent_peak(context, 0, 40), 100);
+    const Peaks peaks(context);
+    EXPECT_NEAR(peaks.of(0, 0.4).y, 50 * std::sqrt(3), 1);
+    EXPECT_NEAR(peaks.of(0, 0.55).y, 100, 1);
+    EXPECT_EQ(peaks.of(0, 2.0 / 3).y, 100);
 }
 
 }  // namespace

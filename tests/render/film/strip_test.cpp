@@ -168,8 +168,7 @@ TEST(ForceStrip, ReadsTheForceInTheUnitOfTheAxis) {
     EXPECT_GT(reading_width(90), 1.1 * reading_width(0));  // another digit
 }
 
-// Several forces of one motion have readings of zero, as one force alone has; of several motions they would be a row of
-// zeros.
+// Several forces have readings of zero, as one force alone has.
 TEST(ForceStrip, ReadsZeros) {
     const auto readings = [](FilmSetup setup) {
         setup.poses[0].nearest->force = 0;

@@ -93,28 +93,53 @@ TEST(Plot, TicksOfEventsAreBetweenTheAxisAndItsNumbers) {
         }
 }
 
-// Of several motions, those without a force have no reading; several forces of one motion have theirs.
-TEST(Chart, ForcesThatAreZeroHaveNoReadingBesideThoseOfOtherMotions) {
+// Curves with a row each are above each other; where the rows would be too low they share one.
+TEST(Chart, CurvesHaveRowsWhereThereIsRoom) {
     ChartContent content;
     content.set_time({0, 1}, 1, "t");
     content.set_values({0, 100}, "F", "N");
-    content.panel.series.resize(2);
+    for (const std::uint32_t color : {0xFF0000U, 0x00FF00U})
+        content.panel.series.push_back({.x = {0, 1}, .y = {50, 50}, .color = rgb(color)});
+    content.rows = 2;
     const Fonts fonts;
-    const auto readings = [&](std::vector<double> values, bool of_several_motions = true) {
-        content.blank_zeros = of_several_motions;
-        const Chart chart(content, {0, 0, 300, 160}, kBox, film_style(palette(Theme::light), 0.5, 10.5, 9), fonts);
+    for (const double height : {100.0, 30.0}) {
+        const Box plot{kBox.x, kBox.y, kBox.w, height};
+        const Chart chart(content, {0, 0, 300, 160}, plot, film_style(palette(Theme::light), 1, 21, 17), fonts);
         Image image(300, 160);
         Canvas canvas(image, fonts);
-        std::vector<Box> texts;
-        canvas.record = &texts;
-        chart.draw_moving(canvas, 0.5, values);
-        return texts.size();
+        chart.draw_moving(canvas, 2, {});
+        const auto row_of = [&](std::uint32_t color) {
+            for (int y = 0; y < image.height; ++y)
+                if ((image.pixels[std::size_t(y) * 300 + 100] & 0xFFFFFF) == color) return y;
+            return -1;
+        };
+        EXPECT_NEAR(row_of(0x00FF00), plot.y + (height > 50 ? 0.8 : 0.5) * height, 0.08 * height);
+        EXPECT_EQ(row_of(0xFF0000) > 0, height > 50) << "the second curve covers the first in one row";
+    }
+}
+
+// The value of a peak is above it, unless the reading states it.
+TEST(Chart, PeaksHaveTheirValues) {
+    ChartContent content;
+    content.set_time({0, 1}, 1, "t");
+    content.set_values({0, 100}, "F", "N");
+    content.panel.series.push_back({.x = {0, 0.5, 1}, .y = {0, 40, 0}});
+    const Fonts fonts;
+    const Chart chart(content, {0, 0, 300, 160}, kBox, film_style(palette(Theme::light), 1, 21, 17), fonts);
+    const auto texts = [&](double t, const Vec2& peak, double reading = 0) {
+        Image image(300, 160);
+        Canvas canvas(image, fonts);
+        std::vector<Box> all;
+        canvas.record = &all;
+        chart.draw_moving(canvas, t, {&reading, 1}, {&peak, 1});
+        std::erase_if(all, [](const Box& text) { return text.right() > kBox.right(); });  // the reading
+        return all;
     };
-    EXPECT_EQ(readings({3, 5}), 2u);
-    EXPECT_EQ(readings({0, 5}), 1u);
-    EXPECT_EQ(readings({0, 0}), 0u);
-    EXPECT_EQ(readings({0, 0}, false), 2u);
-    EXPECT_EQ(readings({0}, false), 1u);
+    EXPECT_TRUE(texts(0.51, {0.5, 40}, 40).empty());
+    EXPECT_TRUE(texts(0.8, {std::nan(""), std::nan("")}).empty());
+    ASSERT_EQ(texts(0.8, {0.5, 40}).size(), 1u);
+    EXPECT_NEAR(texts(0.8, {0.5, 40})[0].centre().x, kBox.centre().x, 2);
+    EXPECT_LT(texts(0.8, {0.5, 40})[0].bottom(), kBox.y + 0.6 * kBox.h);
 }
 
 // A window moves the curves and its numbers, and no number is before the first instant of the film.
