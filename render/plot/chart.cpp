@@ -170,7 +170,7 @@ void Chart::draw_peaks(Canvas& canvas, const std::vector<figure::Plot>& rows, do
         const std::string text = reading_text(peaks[i].y);
         if (i < readings.size() && text == reading_text(readings[i])) continue;
         const double wide = canvas.measure(text, style).w;
-        const bool above = at.y > row.box().y + 0.5 * size;
+        const bool above = at.y > row.box().y + 0.7 * size;
         const double right = above ? std::min(at.x + wide / 2, cursor - gap) : at.x - gap;
         canvas.text({std::max(right, area_.x + wide), at.y + (above ? -0.45 : 0.35) * size}, text, style);
     }

@@ -138,7 +138,7 @@ TEST(Layout, PanelsWithoutRoomAreNamed) {
     const LayoutNode grid{.kind = Kind::columns, .children = {{.panel = {.kind = PanelKind::mechanism}}, side}};
     EXPECT_EQ(panels_of(grid).size(), 4u);
     EXPECT_TRUE(omitted_panels(1920, 1080, grid).empty());
-    EXPECT_EQ(omitted_panels(590, 300, grid), (std::vector<PanelSpec>{{.kind = PanelKind::close_up}}));
+    EXPECT_EQ(omitted_panels(640, 300, grid), (std::vector<PanelSpec>{{.kind = PanelKind::close_up}}));
     EXPECT_EQ(omitted_panels(100, 100, grid).size() + layout(100, 100, grid).panels.size(), 4u);
 }
 
