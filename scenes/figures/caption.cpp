@@ -28,14 +28,18 @@ std::string caption_value(const Node& value) {
     return fmt::format("[{}]", fmt::join(items, ", "));
 }
 
-// "cam.speed = 0" of each key whose value is not that of `usual`.
+// "cam speed = 0" or "no cam" of each key whose value is not that of `usual`.
 void add_differences(const Node& node, const Node* usual, const std::string& path, std::vector<std::string>& out) {
     if (node.kind == Node::Kind::object) {
         for (const Member& member : node.members)
             add_differences(member.value, usual ? child(*usual, member.key) : nullptr,
                             path.empty() ? member.key : path + "." + member.key, out);
     } else if (!usual || one_line(node) != one_line(*usual)) {
-        out.push_back(fmt::format("{} = {}", render::escaped(path), caption_value(node)));
+        std::string words = path;
+        for (char& c : words)
+            if (c == '.' || c == '_') c = ' ';
+        out.push_back(node.kind == Node::Kind::null ? "no " + words
+                                                    : fmt::format("{} = {}", words, caption_value(node)));
     }
 }
 

@@ -33,7 +33,7 @@ inline Subject subject_of(const Scene& scene, Lang lang) { return {scene.problem
 // The motions that a figure shows.
 using Runs = std::vector<std::pair<const sim::Problem*, const sim::Result*>>;
 
-// "beam.modes = 6, cam.speed = 0": the keys of the scene that differ from the defaults and are the same in all
+// "beam modes = 6, cam speed = 0": the parameters of the scene that differ from the defaults and are the same in all
 // problems, in SI units; empty: there are none.
 std::string parameters(const std::vector<const sim::Problem*>& problems);
 // "Relative tolerance 10⁻⁸; at the ends of steps the energy balance closes to 2 × 10⁻⁹ of its scale.", of several

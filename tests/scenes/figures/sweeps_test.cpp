@@ -440,7 +440,7 @@ TEST(Diagram, IsAFileWithItsCaption) {
     }
     EXPECT_THAT(
         testing::slurp(folder / "c.txt"),
-        HasSubstr("Bifurcation diagram over cam.speed. Parameters in SI units: beam.model = rigid, contact.model = "));
+        HasSubstr("Bifurcation diagram over cam.speed. Parameters in SI units: beam model = rigid, contact model = "));
 }
 
 TEST(Diagram, AndTheSamplesAreOutputsOfAScene) {
