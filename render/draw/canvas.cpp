@@ -95,11 +95,9 @@ void Canvas::image_part(const Image& source, int x, int y, const Box& part) {
     if (!there.empty()) mark_painted(there);
 }
 
+void Canvas::image(const Image& source, const Box& into) { pixels(within_alpha(source), into); }
+
 void Canvas::image_tiles(const Image& source, int x, int y, const DirtyTiles& tiles) {
-    if (is_vector_) {
-        const Image whole = within_alpha(source);
-        return pixels(whole, {double(x), double(y), double(source.width), double(source.height)});
-    }
     std::vector<Box> runs;
     tiles.for_each_run([&](int left, int top, int right, int bottom) {
         const int x0 = std::max(left, x), y0 = std::max(top, y);

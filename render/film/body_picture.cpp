@@ -18,14 +18,36 @@ Box picture_box(const MechanismScene& s) {
             std::clamp(std::ceil(wide.bottom()), y0 + 1, double(s.canvas.height())) - y0};
 }
 
+// Pixels of the bodies in a pixel of the picture: vector graphics are enlarged and printed.
+int fineness(const MechanismScene& s, const Box& box) {
+    constexpr double kFinest = 3, kLargest = 4096;  // 288 dpi; [px]
+    return s.canvas.is_vector() ? static_cast<int>(std::clamp(kLargest / std::max(box.w, box.h), 1.0, kFinest)) : 1;
+}
+
+BodyScene scaled(BodyScene scene, int fine, const Box& box) {
+    if (fine == 1) return scene;
+    const auto enlarge = [&](auto& vertices) {
+        for (auto& v : vertices)
+            for (float& each : v.pixel) each *= static_cast<float>(fine);
+    };
+    enlarge(scene.vertices), enlarge(scene.shadows);
+    scene.fade *= fine;
+    scene.seen = DirtyTiles(fine * static_cast<int>(box.w), fine * static_cast<int>(box.h));
+    scene.seen.add_all();
+    return scene;
+}
+
 }  // namespace
 
 void BodyPicture::draw(const MechanismScene& s) {
     const MechanismView& at = s.at;
     const Box box = picture_box(s);
     DrawingCounts& counts = *at.context.counts;
-    if (!renderer_) {
-        renderer_ = make_body_renderer(static_cast<int>(box.w), static_cast<int>(box.h));
+    const int fine = fineness(s, box);
+    if (!renderer_ || fine_ != fine) {
+        renderer_ = make_body_renderer(fine * static_cast<int>(box.w), fine * static_cast<int>(box.h));
+        fine_ = fine;
+        drawn_.reset();
         ++counts.gl_contexts;
     }
     // Bodies have the panel's middle as their origin.
@@ -36,13 +58,14 @@ void BodyPicture::draw(const MechanismScene& s) {
         const double before = renderer_->read_back;
         const Stage stage{box,     at.box.centre(),      ground,
                           at.wide, at.marks * at.zoom(), std::clamp(2 - at.zoom(), 0.0, 1.0)};
-        const BodyScene scene = body_scene(s.shape, at.palette, stage, view);
+        const BodyScene scene = scaled(body_scene(s.shape, at.palette, stage, view), fine, box);
         drawn_.reset();
         renderer_->draw(scene, image_);
         drawn_ = std::move(now), seen_ = scene.seen;
         counts.read_back += renderer_->read_back - before;
         ++counts.bodies_drawn;
     }
+    if (s.canvas.is_vector()) return s.canvas.image(image_, box);
     DirtyTiles where(s.canvas.width(), s.canvas.height());
     seen_.for_each_run([&](double left, double top, double right, double bottom) {
         where.add({box.x + left, box.y + top, right - left - 1, bottom - top - 1});

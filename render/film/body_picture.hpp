@@ -16,6 +16,7 @@ class BodyPicture {
 
   private:
     std::unique_ptr<BodyRenderer> renderer_;  // created on first use
+    int fine_ = 0;                            // its pixels in a pixel of the picture, along a line
     Image image_;
     struct Drawn {
         MechanismShape shape;
