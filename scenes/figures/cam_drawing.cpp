@@ -18,8 +18,13 @@ using sim::Vec2;
 // Sizes on paper.
 constexpr double kMargin = points(12), kLetters = points(3.0), kOutline = points(0.5), kThin = points(0.2);  // [pt]
 constexpr double kPointsPerMetre = points(1000);
-constexpr render::Color kBlack = render::rgb(0x000000), kGrey = render::rgb(0x777777), kFill = render::rgb(0xE6E8EC);
+constexpr double kBeyond = 4e-3;  // of centre lines, beyond the outline [m]
+constexpr render::Color kBlack = render::rgb(0x000000), kGrey = render::rgb(0x777777), kFill = render::rgb(0xE6E8EC),
+                        kWhite = render::rgb(0xFFFFFF);
 const render::Pen kCentreLine{kGrey, kThin, {8 * kThin, 3 * kThin, kThin, 3 * kThin}, render::Cap::butt};
+// ISO 128: adjacent parts are long-dashed and double-dotted.
+const render::Pen kLeverLine{
+    kBlack, 1.5 * kThin, {24 * kThin, 3 * kThin, kThin, 3 * kThin, kThin, 3 * kThin}, render::Cap::butt};
 
 std::string millimetres(double metres) { return fmt::format("{:.5g}", 1e3 * metres); }
 
@@ -35,6 +40,18 @@ class CamDrawing {
         for (const Vec2 p : outline_) bounds_.add(p);
         bounds_.add(pivot_, 6 * kLetters / kPointsPerMetre / 4);
         base_ = shape_.least_height();
+        const sim::Lever::State start = lever_.at(0);
+        if (std::isfinite(start.foot)) {
+            const Vec2 along = sim::unit(start.motion.theta), touched = start.point.position(start.alpha);
+            const double end =
+                std::min(problem.hub.radius + problem.beam.length, norm(pivot_) + shape_.largest_reach());
+            for (const double x : {-start.foot, end - start.foot}) bounds_.add(face_.emplace_back(touched + x * along));
+        }
+        if (summary_.jump && summary_.jump->speed > 0) {
+            const double alpha = lever_.at(summary_.jump->phi).alpha;
+            leaves_ = shape_.at(alpha).position(alpha), beside_ = sim::unit(alpha);
+            bounds_.add(leaves_ + kLetters / kPointsPerMetre * Vec2{beside_.x < 0 ? -10.0 : 10.0, 3 * beside_.y});
+        }
         const double speed = problem.cam->speed;
         if (speed != 0) rotation_ = speed > 0 ? "; turns clockwise" : "; turns counter-clockwise";
     }
@@ -52,13 +69,17 @@ class CamDrawing {
         draw_axis();
         draw_base_circle();
         draw_sharpest_place();
+        draw_lever();
+        draw_jump();
         draw_pivot();
     }
 
   private:
     Vec2 at(Vec2 p) const { return camera_.to_pixels(p); }
-    void label(Vec2 where, const std::string& text, render::HAlign align = render::HAlign::centre) {
-        to_->text(where, text, {.size = kLetters, .color = kBlack, .align = align, .valign = render::VAlign::middle});
+    void label(Vec2 where, const std::string& text, render::HAlign align = render::HAlign::centre,
+               render::Color halo = kWhite) {
+        to_->text(where, text,
+                  {.size = kLetters, .color = kBlack, .align = align, .valign = render::VAlign::middle, .halo = halo});
     }
     void arrow(Vec2 from, Vec2 to) {
         to_->arrow(from, to, {kBlack, kThin, {}, render::Cap::butt},
@@ -81,7 +102,6 @@ class CamDrawing {
     }
 
     void draw_axis() {
-        constexpr double kBeyond = 4e-3;  // the outline [m]
         const double right = shape_.at(0).h + kBeyond, left = shape_.at(std::numbers::pi).h + kBeyond;
         const double up = shape_.at(0.5 * std::numbers::pi).h + kBeyond;
         const double down = shape_.at(1.5 * std::numbers::pi).h + kBeyond;
@@ -99,20 +119,47 @@ class CamDrawing {
         arrow(c, c + radius * along);
         arrow(c, c - radius * along);
         const Vec2 across{along.y, -along.x};  // to the upper left, on paper
-        to_->text(c + 0.5 * radius * along + 0.4 * kLetters * across, "Ø " + millimetres(2 * base_),
-                  {.size = kLetters, .color = kBlack, .align = render::HAlign::centre, .turned = kSlope});
+        to_->text(
+            c + 0.5 * radius * along + 0.4 * kLetters * across, "Ø " + millimetres(2 * base_),
+            {.size = kLetters, .color = kBlack, .align = render::HAlign::centre, .halo = kFill, .turned = kSlope});
     }
 
     void draw_sharpest_place() {
-        const double alpha = lever_.summary().rho_min_normal;
+        const double alpha = summary_.rho_min_normal;
         const sim::CamPoint p = shape_.at(alpha);
         const Vec2 n = sim::unit(alpha), touched = p.position(alpha), centre = touched - p.radius * n;
         arrow(at(centre), at(touched));
         to_->circle(at(centre), points(0.4));
         to_->fill(kBlack);
         const Vec2 beside{0.9 * kLetters * std::abs(n.y) + 0.2 * kLetters, -0.9 * kLetters * std::abs(n.x)};
-        label(at(centre + 0.55 * p.radius * n) + beside, "R " + millimetres(p.radius), render::HAlign::left);
+        label(at(centre + 0.55 * p.radius * n) + beside, "R " + millimetres(p.radius), render::HAlign::left, kFill);
     }
+
+    // The face of the straight lever where the cam's frame is not turned.
+    void draw_lever() {
+        if (face_.empty()) return;
+        const Vec2 root = at(face_[0]), tip = at(face_[1]);
+        line(root, tip, kLeverLine);
+        const Vec2 along = render::normalized(tip - root), off = 0.5 * kLetters * Vec2{along.y, -along.x};
+        to_->text(root + 0.35 * (tip - root) + (lever_.side() > 0 ? 1 : -2.4) * off, "straight lever at φ = 0",
+                  {.size = kLetters,
+                   .color = kBlack,
+                   .align = render::HAlign::centre,
+                   .halo = kWhite,
+                   .turned = -std::atan(along.y / along.x)});
+    }
+
+    // Where the straight lever leaves the cam at its jump speed.
+    void draw_jump() {
+        if (beside_ == Vec2{}) return;
+        const Vec2 p = at(leaves_), outwards{beside_.x, -beside_.y};
+        to_->circle(p, points(0.7));
+        to_->fill(kBlack);
+        label(p + 1.6 * kLetters * outwards,
+              fmt::format("jump {:.4g} rpm", summary_.jump->speed * 30 / std::numbers::pi),
+              outwards.x < 0 ? render::HAlign::right : render::HAlign::left);
+    }
+
     void draw_pivot() {
         const Vec2 c = at({0, 0}), o = at(pivot_);
         line(c, o, kCentreLine);
@@ -124,7 +171,7 @@ class CamDrawing {
         const double low = at({0, bounds_.y0}).y + 3 * kLetters;
         if (std::abs(o.x - c.x) > 4 * kLetters && std::abs(o.y - c.y) < 0.01 * kLetters) {
             const render::Pen thin{kBlack, kThin, {}, render::Cap::butt};
-            line({c.x, c.y}, {c.x, low + kLetters}, thin);
+            line(at({0, -shape_.at(1.5 * std::numbers::pi).h - kBeyond}), {c.x, low + kLetters}, thin);
             line({o.x, o.y + points(2)}, {o.x, low + kLetters}, thin);
             const Vec2 middle{0.5 * (o.x + c.x), low};
             arrow(middle, {o.x, low});
@@ -143,7 +190,10 @@ class CamDrawing {
 
     const sim::Lever& lever_;
     const sim::CamShape& shape_;
+    const sim::Lever::Summary summary_ = lever_.summary();
     std::vector<Vec2> outline_;
+    std::vector<Vec2> face_;  // of the lever, from its root to where it is cut; empty: no lever reaches the cam
+    Vec2 leaves_, beside_;    // the place of the jump and the outline's normal there, which is zero without a jump
     Vec2 pivot_;
     double base_ = 0;  // radius of the base circle [m]
     const char* rotation_ = "";
