@@ -57,7 +57,7 @@ Panel mode_counts(const sim::Accuracy& a, Lang lang) {
                 .right = Axis{.label = phrase(lang, kTime), .scale = Scale::logarithmic},
                 .name = "modes"};
     Series error{.label = phrase(lang, "error, against $N$ = {}", a.most_modes), .every_point = true},
-        time{.label = phrase(lang, "run time (right)"), .look = 1, .every_point = true, .right = true};
+        time{.name = "run time", .look = 1, .every_point = true, .right = true};
     for (const sim::ModesRow& row : a.modes) {
         if (!row.error) continue;
         if (row.modes != a.most_modes) error.add(row.modes, visible(*row.error, a));

@@ -83,27 +83,25 @@ const char* letters(sim::OrbitChange change) {
     return kLetters[static_cast<std::size_t>(change)];
 }
 
-// Labels nearer to the last one of the same change than this share of the range are omitted, as along a cascade of
-// period doublings.
-constexpr double kLabelRoom = 0.06;
+// A change has a mark at its fastest impact, unless one of the same kind is closer than this share of the range, as
+// along a cascade of period doublings.
+constexpr double kRoomOfMark = 0.06;
 
 void add_special(const output::BranchTable& table, double factor, double range, Panel& panel) {
-    std::map<sim::OrbitChange, double> labelled;
+    std::map<sim::OrbitChange, double> marked;
     for (const sim::Branch& branch : table.branches)
         for (const sim::SpecialPoint& point : branch.special) {
             const double x = factor * point.at.parameter;
-            const auto last = labelled.find(point.change);
-            const bool room = last == labelled.end() || !(std::abs(x - last->second) < kLabelRoom * range);
-            if (room) labelled[point.change] = x;
-            std::vector<double> speeds;
-            for (const sim::OrbitImpact& impact : point.at.orbit.impacts) speeds.push_back(impact.approach);
-            if (speeds.empty()) speeds.push_back(0);  // a beam that never leaves the cam
-            for (std::size_t k = 0; k < speeds.size(); ++k)
-                panel.marks.push_back({.x = x,
-                                       .y = speeds[k],
-                                       .label = room && k == 0 ? letters(point.change) : "",
-                                       .look = static_cast<int>(point.change),
-                                       .hollow = true});
+            const auto last = marked.find(point.change);
+            if (last != marked.end() && std::abs(x - last->second) < kRoomOfMark * range) continue;
+            marked[point.change] = x;
+            double fastest = 0;  // of a beam that never leaves the cam
+            for (const sim::OrbitImpact& impact : point.at.orbit.impacts) fastest = std::max(fastest, impact.approach);
+            panel.marks.push_back({.x = x,
+                                   .y = fastest,
+                                   .label = letters(point.change),
+                                   .look = static_cast<int>(point.change),
+                                   .hollow = true});
         }
 }
 

@@ -29,21 +29,16 @@ Panel panel_of(const sim::Exponents& e, std::size_t shown, Lang lang) {
                 .y = {.label = "$λ$ / s^{−1}", .with_zero = true},
                 .rules = {{.at = 0}},
                 .name = "exponents"};
-    for (std::size_t i = 0; i < shown; ++i)
-        if (std::isfinite(e.lambda[i]))
-            panel.series.push_back(
-                {.label = value_text(e, i), .x = e.time, .y = e.history[i], .look = static_cast<int>(i)});
+    for (std::size_t i = 0; i < shown; ++i) {
+        if (!std::isfinite(e.lambda[i])) continue;
+        const int look = static_cast<int>(i);
+        panel.series.push_back({.label = value_text(e, i), .x = e.time, .y = e.history[i], .look = look});
+        if (!(e.error[i] > 0)) continue;
+        const double low = e.lambda[i] - e.error[i], high = e.lambda[i] + e.error[i];
+        panel.bands.push_back(
+            {.x = {e.time.front(), e.time.back()}, .low = {low, low}, .high = {high, high}, .look = look});
+    }
     return panel;
-}
-
-// The first exponents, as many as can be read on one axis with the two largest; the others are far below zero.
-std::size_t count_of_largest(const sim::Exponents& e) {
-    constexpr double kReadable = 20;
-    double size = 0;
-    for (std::size_t i = 0; i < std::min<std::size_t>(2, e.lambda.size()); ++i)
-        if (std::isfinite(e.lambda[i])) size = std::max({size, std::abs(e.lambda[i]), e.error[i]});
-    const auto far = std::ranges::find_if(e.lambda, [&](double each) { return !(each >= -kReadable * size); });
-    return static_cast<std::size_t>(far - e.lambda.begin());
 }
 
 }  // namespace
@@ -54,9 +49,9 @@ render::figure::Figure exponents_figure(const sim::Exponents& e, const Subject& 
     if (panels[0].series.empty())
         throw render::PictureError(
             "exponents: all are −∞, because sustained contact removes every difference; there is nothing to draw");
-    const std::size_t largest = count_of_largest(e);
-    const bool both = largest > 0 && largest < panels[0].series.size();
-    if (both) panels.insert(panels.begin(), panel_of(e, largest, lang));
+    // The largest one also alone, since the others may be far below zero.
+    const bool both = panels[0].series.size() > 1 && std::isfinite(e.lambda[0]);
+    if (both) panels.insert(panels.begin(), panel_of(e, 1, lang));
     render::figure::Figure figure{
         .name = "exponents",
         .title = fmt::format("Convergence of the Lyapunov exponents over {} s with {} impacts", number(e.duration, 4),
@@ -64,7 +59,7 @@ render::figure::Figure exponents_figure(const sim::Exponents& e, const Subject& 
         .panels = lettered(std::move(panels)),
         .aspect = both ? 1.2 : 0.66};
     add_caption(figure, std::vector{subject.problem});
-    figure.accuracy = "Errors are standard errors of block averages.";
+    figure.accuracy = "Errors, which are the bands, are standard errors of block averages.";
     return figure;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "render/base/error.hpp"
 #include "render/plot/style.hpp"
@@ -52,6 +53,32 @@ void color_by_class(const SweptPoints& points, const std::vector<output::StoredP
         swatches.emplace(std::pair(p.kind, std::min(period, std::size(kPeriodColors))), entry);
     }
     for (const auto& [order, entry] : swatches) panel.swatches.push_back(entry);
+}
+
+std::string orbit_label(const output::StoredPoint& p, Lang lang) {
+    return phrase(lang, "{0} turn{1}, {2:g} impact{3}", p.period, p.period == 1 ? "" : "s", p.impacts_per_period,
+                  p.impacts_per_period == 1 ? "" : "s");
+}
+
+// Basins are those of attractors: of each class and, if it is periodic, of each period with each number of impacts. The
+// colours of periodic ones repeat after six.
+constexpr std::uint32_t kAttractorColors[] = {0x0072B2, 0x56B4E9, 0xCC79A7, 0xE69F00, 0x08306B, 0x8C510A};
+void color_by_attractor(const SweptPoints& points, const std::vector<output::StoredPoint>& entries,
+                        figure::Panel& panel) {
+    std::map<std::tuple<int, int, double>, std::vector<const output::StoredPoint*>> basins;
+    const auto is_periodic = [](const output::StoredPoint& p) { return kind_of(p) == AttractorClass::periodic; };
+    for (const output::StoredPoint& p : entries)
+        basins[is_periodic(p) ? std::tuple(p.kind, p.period, p.impacts_per_period) : std::tuple(p.kind, 0, 0.0)]
+            .push_back(&p);
+    std::size_t next = 0;
+    for (const auto& [attractor, cells] : basins) {
+        figure::Swatch entry = map_entry(*cells.front(), points.lang);
+        if (is_periodic(*cells.front()))
+            entry = {orbit_label(*cells.front(), points.lang),
+                     rgb(kAttractorColors[next++ % std::size(kAttractorColors)])};
+        for (const output::StoredPoint* p : cells) panel.cells[0].colors[p->point] = entry.color;
+        panel.swatches.push_back(entry);
+    }
 }
 
 // Beside colours that are nearly white at 0.
@@ -109,7 +136,9 @@ figure::Figure key_map(const SweptPoints& points, const FigureOutput& how) {
         entries.push_back(points.data.read(k));
         entries.back().point = row[cell / width] * width + column[cell % width];
     }
-    if (value == "class")
+    if (value == "class" && how.figure == "basins")
+        color_by_attractor(points, entries, panel);
+    else if (value == "class")
         color_by_class(points, entries, panel);
     else
         color_by_value(points, entries, value, panel);
