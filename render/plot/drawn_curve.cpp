@@ -172,6 +172,13 @@ void DrawnCurve::draw_line(const PlotStyle& style, Painter& on) const {
         draw_marker(on, style, look(s.look).marker, only, style.marker, pen.color, false);
 }
 
+void draw_sample(Painter& on, const PlotStyle& style, const Series& s, Vec2 from, Vec2 to) {
+    const Pen pen = curve_pen(s, style);
+    if (s.line && s.value.empty()) on.line(from, to, pen);
+    if (s.every_point)
+        draw_marker(on, style, look(s.look).marker, 0.5 * (from + to), style.marker, pen.color, s.look % 2 == 1);
+}
+
 void DrawnCurve::draw_markers(const Box& plot, const PlotStyle& style, Painter& on) const {
     const Series& s = *series_;
     if (!s.every_point) return;

@@ -30,6 +30,8 @@ class DrawnCurve {
     std::vector<double> value_;             // colour shares, for curves with values
 };
 
+// The key of a series in a legend or before the name of an axis: its line and its marker.
+void draw_sample(Painter& on, const PlotStyle& style, const Series& series, Vec2 from, Vec2 to);
 void draw_marker(Painter& on, const PlotStyle& style, Marker shape, Vec2 at, double radius, Color color, bool hollow);
 inline bool inside(const Box& b, Vec2 p, double slack = 0) { return b.contains({p.x, p.y, 0, 0}, slack); }
 

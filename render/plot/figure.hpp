@@ -25,15 +25,15 @@ struct Series {
     bool solid = false;               // no dash although the look has one
     bool faded = false;               // lighter and thinner: not reproducible
     bool right = false;               // belongs to the right axis
+    std::vector<double> dash = {};    // instead of the look's, in widths of the line; of films [design px]
     double weight = 1;                // of the line
     std::optional<Color> color = {};  // instead of the look's
     std::vector<double> value = {};   // colours the curve by the panel's colour bar; same length as x
     std::vector<double> t = {};       // of a motion, if x is not the time: instants of the points [s], for the data
-    // Of films: the area below it is filled; colour in the future; dashes [design px]; intervals of x, ascending, in
-    // which the past has the colour `pale`.
+    // Of films: the area below it is filled; colour in the future; intervals of x, ascending, in which the past has the
+    // colour `pale`.
     bool filled = false;
     Color faint = {}, pale = {};
-    std::vector<double> dash = {};
     std::vector<Range> pale_within = {};
     void add(double at_x, double at_y) { x.push_back(at_x), y.push_back(at_y); }
 };

@@ -42,12 +42,7 @@ double LegendAbove::baseline() const { return 0.5 * (kRow * style_.letters + she
 
 void LegendAbove::draw_sample(const Entry& entry, Vec2 left, double width) const {
     if (entry.series) {
-        const Series& s = *entry.series;
-        const Pen pen = curve_pen(s, style_);
-        if (s.line && s.value.empty()) sheet_.line(left, left + Vec2{width, 0}, pen);
-        if (s.every_point)
-            draw_marker(sheet_, style_, look(s.look).marker, left + Vec2{width / 2, 0}, style_.marker, pen.color,
-                        s.look % 2 == 1);
+        figure::draw_sample(sheet_, style_, *entry.series, left, left + Vec2{width, 0});
     } else if (entry.dots) {
         for (const double share : {0.2, 0.5, 0.8}) {
             sheet_.circle(left + Vec2{share * width, 0}, 0.5 * style_.marker);

@@ -52,6 +52,23 @@ std::array<Vec2, 2> PanelDrawing::ends(const Rule& r) const {
     return {Vec2{plot_.box().x, plot_.along_y(r.at)}, {plot_.box().right(), plot_.along_y(r.at)}};
 }
 
+// Vertical rules closer than a gap would look like a thick one: they are one, which has the label.
+std::vector<Rule> PanelDrawing::distinct_rules() const {
+    std::vector<Rule> out;
+    for (const Rule& r : panel_.rules) {
+        const auto same = std::ranges::find_if(out, [&](const Rule& other) {
+            return r.vertical && other.vertical &&
+                   std::abs(plot_.along_x(r.at) - plot_.along_x(other.at)) < style_.gap &&
+                   (r.label.empty() || other.label.empty());
+        });
+        if (same == out.end())
+            out.push_back(r);
+        else if (!r.label.empty())
+            *same = r;
+    }
+    return out;
+}
+
 void PanelDrawing::draw_backgrounds() const {
     for (const Cells& cells : panel_.cells) draw_cells(cells, plot_, sheet_);
     for (const Span& s : panel_.spans) {
@@ -62,7 +79,7 @@ void PanelDrawing::draw_backgrounds() const {
         sheet_.fill(s.color);
     }
     plot_.draw_bands(sheet_);
-    for (const Rule& r : panel_.rules)
+    for (const Rule& r : distinct_rules())
         sheet_.line(ends(r)[0], ends(r)[1],
                     {rgb(0x888888), 0.75 * style_.frame, {3.3 * style_.frame, 3.3 * style_.frame}, Cap::butt});
 }

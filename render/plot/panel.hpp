@@ -28,6 +28,7 @@ class PanelDrawing {
     // The legend's first row is behind a letter that has no title.
     bool has_letter_in_legend() const { return panel_.title.empty() && !panel_.letter.empty() && !legend_.empty(); }
     std::array<Vec2, 2> ends(const Rule& rule) const;
+    std::vector<Rule> distinct_rules() const;
     void draw_backgrounds() const;
     void draw_data() const;
     void label_marks() const;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/plot/drawn_curve.hpp"
+
 namespace beamcam::render::figure {
 namespace {
 
@@ -141,9 +143,27 @@ void PanelNames::draw_labels_beside(const Plot& plot) const {
     l.turned = std::numbers::pi / 2;
     double x = box.x - style_.gap - widest_y_ - 1.6 * style_.gap - y_.beside;
     for (const std::string& line : y_.lines) sheet_.text({x, box.centre().y}, line, l), x += step;
+    if (!plot.right()) return;
+    draw_key_of_axis(false, y_.lines.front(), {x - static_cast<double>(y_.lines.size()) * step, box.centre().y});
     l.valign = VAlign::top;
     x = box.right() + style_.gap + widest_right_ + 1.4 * style_.gap;
+    draw_key_of_axis(true, right_.lines.front(), {x + sheet_.cap_height(style_.letters), box.centre().y});
     for (const std::string& line : right_.lines) sheet_.text({x, box.centre().y}, line, l), x += step;
+}
+
+// The line of the curves of an axis, in their colour if they have one, before the axis's name, whose baseline has its
+// middle here.
+void PanelNames::draw_key_of_axis(bool right, const std::string& first_line, Vec2 middle) const {
+    constexpr double kLength = 2.6;  // as in the legend
+    const auto is_of_axis = [&](const Series& s) { return s.right == right; };
+    const auto first = std::ranges::find_if(panel_.series, is_of_axis);
+    if (first == panel_.series.end() || first_line.empty()) return;
+    Series key = *first;
+    for (const Series& s : panel_.series)
+        if (is_of_axis(s) && color_of(s) != color_of(*first)) key.color = kInk;
+    const double from = middle.y + 0.5 * sheet_.measure(first_line, style_.words()).w + 2 * style_.gap,
+                 x = middle.x - 0.5 * sheet_.cap_height(style_.letters);
+    draw_sample(sheet_, style_, key, {x, from + kLength * style_.letters}, {x, from});
 }
 
 void PanelNames::draw_common_factors(const Plot& plot) const {

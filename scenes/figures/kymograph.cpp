@@ -70,8 +70,10 @@ FigureDrawing prepare_kymograph(const Scene& scene, const FigureOutput& how, Mot
         const auto& [problem, units, lang, end] = subject;
         Panel panel =
             kymograph_panel(deflections(result.poses[shown.poses], samples), shown, problem.beam.length, samples > 1);
+        Series hits{.name = "impact", .look = 1, .line = false, .every_point = true};
         for (const sim::Impact& hit : strikes(problem, result.impacts, shown.from, shown.to))
-            panel.marks.push_back({.x = hit.t_start, .y = hit.x, .look = 1, .hollow = true});
+            hits.add(hit.t_start, hit.x);
+        panel.series.push_back(std::move(hits));
         return {.panels = {std::move(panel)}};
     });
 }
@@ -83,6 +85,7 @@ extern const FigureType kKymograph{
     .title = "Deflection from the tangent at the root, along the beam and in time; squares: impacts",
     .refusal = needs_bending,
     .maker = prepare_kymograph,
-    .keys = {"from", "to"}};
+    .keys = {"from", "to"},
+    .ends = Instant{.kind = Instant::Kind::apex}};
 
 }  // namespace beamcam::scenes

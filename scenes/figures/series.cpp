@@ -13,15 +13,17 @@ namespace {
 
 // Gives the panels of several motions one scale, so that they compare.
 void share_ordinates(Figure& figure) {
-    std::map<std::string, render::Extent> ranges;  // by what the panels show
+    std::map<std::pair<std::string, bool>, render::Extent> ranges;  // by what the panels show, on the right or left
     for (const Panel& panel : figure.panels)
-        for (const Series& curve : panel.series)
-            if (!curve.right) ranges[panel.name].add(curve.y);
+        for (const Series& curve : panel.series) ranges[{panel.name, curve.right}].add(curve.y);
+    const auto share = [](render::Axis& axis, const render::Extent& range) {
+        const double air = 0.05 * (range.high - range.low);
+        if (!(range.high > range.low) || axis.scale == render::Scale::logarithmic) return;
+        axis.from = axis.from.value_or(range.low - air), axis.to = axis.to.value_or(range.high + air);
+    };
     for (Panel& panel : figure.panels) {
-        const auto& [any, low, high] = ranges[panel.name];
-        const double air = 0.05 * (high - low);
-        if (!(high > low) || panel.y.scale == render::Scale::logarithmic) continue;
-        panel.y.from = panel.y.from.value_or(low - air), panel.y.to = panel.y.to.value_or(high + air);
+        share(panel.y, ranges[{panel.name, false}]);
+        if (panel.right) share(*panel.right, ranges[{panel.name, true}]);
     }
 }
 
@@ -32,7 +34,7 @@ Figure series_figure(const SeriesPlan& plan, const MotionResults& results) {
     Figure figure{
         .title = series_subject(plan.keys), .panels = lettered(std::move(panels)), .stack = true, .share_x = true};
     plan.abscissa.share(figure, plan.motions.front().problem, plan.units);
-    if (plan.keys.apart) share_ordinates(figure);
+    if (plan.panels.size() > plan.keys.panels.size()) share_ordinates(figure);
     figure.aspect = 0.2 + 0.36 * static_cast<double>(figure.panels.size());
     Runs runs;
     for (const SeriesMotion& motion : plan.motions) runs.emplace_back(&motion.problem, results[motion.request]);

@@ -38,6 +38,23 @@ struct Side {
     std::vector<std::string> symbols = {};  // of the channels
 };
 
+// Whether curves over the same axes differ by less than a line is wide.
+bool coincide(const Series& a, const Series& b) {
+    constexpr double kWidth = 0.005;  // of a line, in the range of the curve
+    if (a.right != b.right || b.x.size() < 2 || !std::ranges::is_sorted(a.x) || !std::ranges::is_sorted(b.x))
+        return false;
+    render::Extent range;
+    range.add(a.y);
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < a.x.size(); ++i) {
+        while (k + 2 < b.x.size() && b.x[k + 1] < a.x[i]) ++k;
+        const double wide = b.x[k + 1] - b.x[k], share = wide > 0 ? (a.x[i] - b.x[k]) / wide : 0;
+        if (!(std::abs(a.y[i] - std::lerp(b.y[k], b.y[k + 1], share)) <= kWidth * (range.high - range.low)))
+            return false;
+    }
+    return true;
+}
+
 class SeriesPanelMaker {
   public:
     SeriesPanelMaker(const SeriesPlan& plan, const PlannedPanel& planned, const MotionResults& results)
@@ -49,18 +66,20 @@ class SeriesPanelMaker {
 
     std::vector<Panel> make() {
         panel_.title = keys_.title;
-        if (plan_.keys.apart) panel_.title = first_.label + (keys_.title.empty() ? "" : ": ") + keys_.title;
+        if (planned_.motions.size() < plan_.motions.size())
+            panel_.title = first_.label + (keys_.title.empty() ? "" : ": ") + keys_.title;
         if (!has_sums()) panel_.name = name(keys_.channels.front());
         if (keys_.logarithmic) panel_.y.scale = render::Scale::logarithmic;
         panel_.y.from = keys_.low, panel_.y.to = keys_.high;
         if (!keys_.right.empty()) panel_.right.emplace();
         add_side({planned_.left, keys_.channels, false});
         if (panel_.right) add_side({planned_.right, keys_.right, true});
-        panel_.legend = has_sums() || curves_ > 1;
-        if (has_sums()) panel_.share = 2.2;
+        const auto labelled = [](const Series& curve) { return !curve.label.empty(); };
+        panel_.legend = has_sums() || std::ranges::count_if(panel_.series, labelled) > 1;
+        if (has_sums()) panel_.share = 1 + 0.2 * static_cast<double>(keys_.sums.size());
         for (auto& rule : series_rules(plan_, planned_, results_)) panel_.rules.push_back(std::move(rule));
         std::vector<Panel> out;
-        if (is_rounding_) return out;
+        if (is_rounding_ || panel_.series.empty()) return out;
         out.push_back(std::move(panel_));
         if (differences_.series.empty()) return out;
         finish_differences();
@@ -83,7 +102,7 @@ class SeriesPanelMaker {
             axis_label(own.empty() ? fmt::format("{}", fmt::join(side.symbols, ", ")) : own, side.measure.unit);
         axis.keeps_unit = !unit_of(side).name.empty();
         for (std::size_t i = 0; i < side.curves.size(); ++i) side.curves[i].sum ? add_sum(side, i) : add_curve(side, i);
-        if (std::ranges::find(planned_.motions, plan_.measured_motion) != planned_.motions.end()) add_data(side);
+        if (shows_motion_with_data()) add_data(side);
         if (side.right) return;
         for (auto* limit : {&axis.from, &axis.to})
             if (*limit) **limit *= side.measure.factor;
@@ -113,7 +132,7 @@ class SeriesPanelMaker {
             side.rows.push_back(rows_of(curve));
             most = std::max(most, largest_magnitude(side.rows.back().values.back()));
         }
-        if (plan_.keys.apart) most = std::max(most, largest_of_all(side.right));
+        if (planned_.motions.size() < plan_.motions.size()) most = std::max(most, largest_of_all(side.right));
         const Channel& first = side.channels.front();
         if (!(most > 0) && std::ranges::none_of(side.rows, has_values))
             throw render::PictureError(
@@ -175,23 +194,35 @@ class SeriesPanelMaker {
         panel_.series.push_back(std::move(curve));
     }
 
-    // Paler where θ is not reproducible. Forces are solid: gaps of dashes would hide their short peaks.
+    // Paler where θ is not reproducible. Forces are solid: gaps of dashes would hide their short peaks. With two axes
+    // the curves of the right one are dashed, the others solid.
     void add_curve(const Side& side, std::size_t i) {
         const SeriesMotion& motion = plan_.motions[side.curves[i].motion];
         const std::size_t shown = planned_.motions.size();
         const std::string& symbol = side.symbols[i / shown];
         const sim::Table& rows = side.rows[i];
-        const bool one_channel = keys_.channels.size() == 1 && keys_.right.empty();
+        const bool one_channel = side.channels.size() == 1;
         const std::string label = phrase(plan_.lang, motion.label);
-        const Series whole{.label = shown == 1    ? symbol
-                                    : one_channel ? label
-                                                  : fmt::format("{}, {}", label, symbol),
-                           .x = plan_.abscissa.of(rows, motion.problem),
-                           .y = scaled(rows.values.back(), side.measure.factor),
-                           .look = curves_++,
-                           .solid = side.channels[i / shown].kind == sim::ChannelKind::contact_force,
-                           .right = side.right,
-                           .weight = kCurveWeight};
+        const std::string alone = one_channel && has_data(side) ? phrase(plan_.lang, "simulation")
+                                  : one_channel && panel_.right ? ""  // the name of the axis has the key
+                                                                : symbol;
+        Series whole{.label = shown == 1    ? alone
+                              : one_channel ? label
+                                            : fmt::format("{}, {}", label, symbol),
+                     .x = plan_.abscissa.of(rows, motion.problem),
+                     .y = scaled(rows.values.back(), side.measure.factor),
+                     .name = shown == 1 ? symbol : "",
+                     .look = curves_,
+                     .solid = side.channels[i / shown].kind == sim::ChannelKind::contact_force,
+                     .right = side.right,
+                     .weight = kCurveWeight};
+        if (panel_.right) whole.solid = !side.right;
+        if (side.right) whole.dash = {5, 2};
+        // Of curves that coincide all have the look of the first.
+        for (const Series& other : whole_)
+            if (coincide(other, whole)) whole.look = other.look;
+        curves_ = std::max(curves_, whole.look + 1);
+        whole_.push_back(whole);
         std::vector<Series> parts = by_reliability(whole, rows.values[0], plan_.unreliable(*results_[motion.request]));
         if (parts.size() > 1) parts.front().label.clear();
         for (Series& part : parts) {
@@ -202,6 +233,14 @@ class SeriesPanelMaker {
 
     // ---- measured data ----------------------------------------------------------------------------
 
+    bool shows_motion_with_data() const {
+        return std::ranges::find(planned_.motions, plan_.measured_motion) != planned_.motions.end();
+    }
+    bool has_data(const Side& side) const {
+        return shows_motion_with_data() && std::ranges::any_of(plan_.measured, [&](const Measured& each) {
+                   return each.data.find(side.channels.front()) != nullptr;
+               });
+    }
     void add_data(const Side& side) {
         for (const Channel& channel : side.channels)
             for (const Measured& each : plan_.measured) {
@@ -270,8 +309,9 @@ class SeriesPanelMaker {
     const SeriesMotion& first_;  // of the motions shown
 
     Panel panel_, differences_;
-    bool is_rounding_ = false;  // it would show rounding alone
-    int curves_ = 0;            // so far, on both axes and of data; the look of the next one
+    std::vector<Series> whole_;  // the curves of channels, not divided by their reliability
+    bool is_rounding_ = false;   // it would show rounding alone
+    int curves_ = 0;             // looks so far, on both axes and of data
 };
 
 }  // namespace

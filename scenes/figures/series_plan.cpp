@@ -123,8 +123,15 @@ void complete(SeriesPlan& plan, const Scene& scene, MotionRequests& requests) {
     std::vector<std::size_t> all(plan.motions.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     for (std::size_t group = 0; group < (keys.apart ? all.size() : 1); ++group)
-        for (std::size_t number = 0; number < keys.panels.size(); ++number)
-            plan.panels.push_back(planned(plan, number, keys.apart ? std::vector{group} : all, requests));
+        for (std::size_t number = 0; number < keys.panels.size(); ++number) {
+            // A panel with two axes shows one motion.
+            if (keys.apart)
+                plan.panels.push_back(planned(plan, number, {group}, requests));
+            else if (keys.panels[number].right.empty())
+                plan.panels.push_back(planned(plan, number, all, requests));
+            else
+                for (const std::size_t motion : all) plan.panels.push_back(planned(plan, number, {motion}, requests));
+        }
 }
 
 }  // namespace beamcam::scenes

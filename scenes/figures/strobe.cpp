@@ -1,4 +1,4 @@
-// The mechanism at several instants, in lines.
+// The beam at several instants and the cam at both ends, in lines.
 #include <algorithm>
 #include <cmath>
 
@@ -36,11 +36,9 @@ void add_cam(const sim::Pose& pose, const sim::Problem& problem, render::Color c
     to.line(from, mark, color, 0.6);
 }
 
-void add_pose(const sim::Pose& pose, const sim::Problem& problem, render::Color color, Sketch& to,
-              render::Bounds& extent) {
+void add_beam(const sim::Pose& pose, render::Color color, Sketch& to, render::Bounds& extent) {
     for (const Vec2 p : pose.centreline) extent.add(p);
     to.add({.kind = Sketch::Kind::line, .points = pose.centreline, .color = color, .width = 1.6});
-    if (problem.cam) add_cam(pose, problem, color, to, extent);
 }
 
 bool is_level(const Vec2& along) { return std::abs(along.x) > 0.5; }
@@ -74,7 +72,7 @@ int decimals_of_instants(const std::vector<sim::Pose>& poses) {
         };
         if (std::ranges::all_of(poses, is_exact)) return decimals;
     }
-    return few + 2;
+    return few + 1;
 }
 
 // The last one, the first, and those between that stand clear of the labels before.
@@ -116,7 +114,9 @@ Panel strobe_panel(const std::vector<sim::Pose>& poses, const sim::Problem& prob
     const double hub = std::max(std::abs(problem.hub.radius), render::root_radius(problem));
     for (std::size_t k = 0; k < poses.size(); ++k) {
         const double share = 0.15 + 0.85 * static_cast<double>(k) / static_cast<double>(poses.size() - 1);
-        add_pose(poses[k], problem, render::figure::map_color(share), sketch, extent);
+        const render::Color color = render::figure::map_color(share);
+        add_beam(poses[k], color, sketch, extent);
+        if (problem.cam && (k == 0 || k + 1 == poses.size())) add_cam(poses[k], problem, color, sketch, extent);
     }
     extent.add({0, 0}, hub);
     sketch.disc({0, 0}, hub, Sketch::kSteel, 0.8);
@@ -144,9 +144,10 @@ FigureDrawing prepare_strobe(const Scene& scene, const FigureOutput& how, Motion
 
 extern const FigureType kStrobe{
     .name = "strobe",
-    .title = "The mechanism at equally spaced instants, from pale to dark, deflection to scale",
+    .title = "The beam at equally spaced instants, from pale to dark, and the cam at both ends; deflection to scale",
     .refusal = no_refusal,
     .maker = prepare_strobe,
-    .keys = {"from", "to"}};
+    .keys = {"from", "to"},
+    .ends = Instant{.kind = Instant::Kind::impact}};
 
 }  // namespace beamcam::scenes

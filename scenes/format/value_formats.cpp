@@ -213,12 +213,13 @@ ValueFormat format_of_instant(Value& at) {
 }
 
 template <class Time>  // double, or std::optional<double>
-ValueFormat format_of_bound(Time& time, std::optional<Instant>& event) {
+ValueFormat format_of_bound(Time& time, std::optional<Instant>& event, bool* last = nullptr) {
     static std::optional<Instant> none;
     ValueFormat out = format_of_instant(none);
-    out.read = [&](ObjectReader& r, const Node& node, const std::string& key) {
+    out.read = [&time, &event, last](ObjectReader& r, const Node& node, const std::string& key) {
         const auto at = read_instant(r, node, key);
         if (!at) return;
+        if (last) *last = at->kind == Instant::Kind::last;
         event = at->is_event() ? at : std::nullopt;
         if (at->kind == Instant::Kind::time)
             time = at->t;
@@ -227,7 +228,7 @@ ValueFormat format_of_bound(Time& time, std::optional<Instant>& event) {
         else if (at->kind == Instant::Kind::last)
             time = r.context().scene.end_time;
     };
-    out.write = [&] { return event ? written(*event) : Node(time); };
+    out.write = [&time, &event, last] { return event ? written(*event) : last && *last ? Node("last") : Node(time); };
     return out;
 }
 
@@ -236,8 +237,8 @@ ValueFormat format_of_bound(Time& time, std::optional<Instant>& event) {
 ValueFormat instant_format(Instant& at) { return format_of_instant(at); }
 ValueFormat instant_format(std::optional<Instant>& at) { return format_of_instant(at); }
 ValueFormat bound_format(double& time, std::optional<Instant>& event) { return format_of_bound(time, event); }
-ValueFormat bound_format(std::optional<double>& time, std::optional<Instant>& event) {
-    return format_of_bound(time, event);
+ValueFormat bound_format(std::optional<double>& time, std::optional<Instant>& event, bool* last) {
+    return format_of_bound(time, event, last);
 }
 
 ValueFormat speed_format(Speed& speed) {

@@ -52,9 +52,9 @@ ValueFormat size_format(Size& size);
 ValueFormat frame_rate_format(FrameRate& rate);
 ValueFormat instant_format(Instant& at);
 ValueFormat instant_format(std::optional<Instant>& at);
-// The first or last instant of a film: a time or an event.
+// The first or last instant of a film or figure: a time or an event. `last`: whether it is named "last".
 ValueFormat bound_format(double& time, std::optional<Instant>& event);
-ValueFormat bound_format(std::optional<double>& time, std::optional<Instant>& event);
+ValueFormat bound_format(std::optional<double>& time, std::optional<Instant>& event, bool* last = nullptr);
 ValueFormat speed_format(Speed& speed);
 ValueFormat anchor_format(render::Anchor& anchor);
 ValueFormat anchor_format(std::optional<render::Anchor>& anchor);

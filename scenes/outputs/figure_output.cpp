@@ -27,7 +27,8 @@ static void visit(SceneVisitor& v, SeriesSum& sum) {
 
 static void visit(SceneVisitor& v, SeriesPanel& panel) {
     v.value(sim::required("channels", "[\"theta\"]"), channels_format(panel.channels), "Curves, all of one unit.");
-    v.value("right", channels_format(panel.right), "Curves of another unit, on the right axis.");
+    v.value("right", channels_format(panel.right),
+            "Curves of another unit, on the right axis; each motion then has its own panel.");
     List sums = SceneVisitor::items_of(panel.sums);
     sums.max_size = 12, sums.of = "sums";
     sums.example = "[{\"label\": \"stored\", \"plus\": [\"energy_elastic\", \"energy_contact\"]}]";
@@ -98,7 +99,9 @@ static void visit_interval(SceneVisitor& v, SeriesKeys& series, const KeyOfFigur
             fmt::format("In {}: first instant. Events are those of the first motion of the figure.",
                         list_of_figures_with("from"))
                 .c_str());
-    v.value(key("to"), bound_format(series.to, series.to_event), "Last instant; by default the end of the scene.");
+    v.value(key("to"), bound_format(series.to, series.to_event, &series.to_last),
+            "Last instant; by default the end of the scene, or in \"strobe\" the first impact, in \"kymograph\" the "
+            "apex after it.");
 }
 
 // The keys of the figure "series"; the other figures have some of them.

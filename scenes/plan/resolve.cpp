@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "render/base/error.hpp"
+#include "scenes/figures/figure_types.hpp"
 #include "scenes/plan/story.hpp"
 #include "scenes/scene/time_map.hpp"
 
@@ -86,11 +87,19 @@ sim::Result run(const Search& search, double scene_end, const sim::Problem& prob
 
 // ---- figures -----------------------------------------------------------------------------------
 
+// The event at which a figure without "to" ends, if the motion has it.
+std::optional<Instant> usual_end(const FigureOutput& how) {
+    const FigureType* type = figure_type(how.figure);
+    const SeriesKeys& keys = how.series;
+    return type && !keys.to && !keys.to_event && !keys.to_last ? type->ends : std::nullopt;
+}
+
+bool needs_events(const FigureOutput& how) { return how.series.needs_events() || usual_end(how); }
+
 Search search_of(const FigureOutput& how, const Scene& scene) {
     const SeriesKeys& keys = how.series;
-    Search search{.until = keys.to.value_or(scene.end_time), .whole = !keys.to_event};
-    search.bounds = {keys.from_event, keys.to_event};
-    return search;
+    const std::optional<Instant> end = keys.to_event ? keys.to_event : usual_end(how);
+    return {.until = keys.to.value_or(scene.end_time), .whole = !end, .bounds = {keys.from_event, end}};
 }
 
 // `end_time`: of the scene [s].
@@ -99,7 +108,10 @@ FigureOutput with_times_of(FigureOutput how, const sim::Result& motion, double e
         return event ? fmt::format("{} at {:g} s", name_of(*event), t) : fmt::format("{:g} s", t);
     };
     const auto from_event = how.series.from_event, to_event = how.series.to_event;
+    const std::optional<Instant> usual = usual_end(how);
     SeriesKeys series = with_times(std::move(how.series), motion);
+    if (const auto end_of_type = usual ? find_instant(*usual, motion) : std::nullopt)
+        if (*end_of_type > series.from) series.to = end_of_type;
     const double end = series.to.value_or(end_time);
     if (!(series.from < end))
         throw render::PictureError(fmt::format("figure {}: \"from\" = {} is not before \"to\" = {}", how.figure,
@@ -232,7 +244,7 @@ ResolvedOutput resolved_output(std::size_t index, const Scene& scene, OwnEvents&
 }  // namespace
 
 bool needs_events(const Output& output, const Scene& scene) {
-    if (const auto* figure = std::get_if<FigureOutput>(&output)) return figure->series.needs_events();
+    if (const auto* figure = std::get_if<FigureOutput>(&output)) return needs_events(*figure);
     const auto* p = std::get_if<PictureOutput>(&output);
     if (!p) return false;
     return shows_collisions(*p, scene) || std::ranges::any_of(p->view.keyframes, &Instant::is_event, &Keyframe::at) ||
@@ -259,7 +271,7 @@ bool is_slow_motion(const PictureOutput& p, double end_time) {
 }
 
 FigureOutput resolved(const FigureOutput& how, const Scene& scene, const FindEvents& find) {
-    if (!how.series.needs_events()) return with_times_of(how, {}, scene.end_time);
+    if (!needs_events(how)) return with_times_of(how, {}, scene.end_time);
     const std::vector<Compared>& compare = how.series.compare;
     return with_times_of(
         how,

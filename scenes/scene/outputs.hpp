@@ -144,6 +144,7 @@ struct SeriesKeys {
     double from = 0;                                        // [s]
     std::optional<double> to = {};                          // [s]; nullopt: the end of the scene
     std::optional<Instant> from_event = {}, to_event = {};  // in place of `from` and `to`
+    bool to_last = false;                                   // to the end of the scene, also in figures that end earlier
     std::vector<Compared> compare = {};                     // empty: only the motion of the scene
     bool apart = false;                                     // separate panels for each of them
     bool impacts = false;                                   // lines at the beginnings of impacts

@@ -127,6 +127,20 @@ TEST(Figures, TheTrialMethodSearchesBesideItsFirstPoints) {
     EXPECT_LE(*std::ranges::min_element(arrivals.series[0].y), arrivals.marks[0].y + 0.05);  // [ms]
 }
 
+TEST(Figures, TheStrobeEndsAtTheFirstImpact) {
+    const auto end_of = [](const std::string& mechanics) {
+        const Scene scene =
+            scene_from("{" + mechanics + R"("time": {"end": 1}, "outputs": [{"type": "figure", "figure": "strobe"}]})");
+        const auto find = [](const sim::Problem& problem, const sim::Request& request) {
+            return sim::simulate(problem, request);
+        };
+        return std::get<FigureOutput>(resolve(scene, find).outputs.front().output).series.to.value_or(scene.end_time);
+    };
+    EXPECT_NEAR(end_of(""), 0.277, 0.001);
+    EXPECT_EQ(end_of(R"("cam": null, )"), 1);
+    EXPECT_EQ(end_of(R"("initial": {"shape": "resting"}, "cam": {"speed": 0}, )"), 1);
+}
+
 // The letters of a slide shrink where five curves and their legend have no room beside large ones.
 TEST(Figures, OfEnergyFitOnASlide) {
     const Folder folder;
@@ -253,11 +267,13 @@ TEST(Presets, ShowTheEnergiesThatTheSceneHas) {
     const auto labels = [](const char* scene) {
         std::string all;
         const auto figure = figure_of(scene_from(scene), "energy");
-        for (const auto& series : figure.panels[0].series) all += series.label + "; ";
+        for (const auto& panel : figure.panels)
+            if (panel.legend)
+                for (const auto& series : panel.series) all += series.label + "; ";
         return all;
     };
     EXPECT_EQ(labels(R"({"time": {"end": 0.4}})"),
-              "kinetic; potential; bending and contact; lost; external work; sum − work; ");
+              "kinetic; potential; lost; external work; sum − work; bending and contact; ");
     EXPECT_EQ(labels(R"({"cam": null, "gravity": 0, "initial": {"angular_velocity": 1}, "time": {"end": 0.1}})"),
               "kinetic; potential; sum − work; ");  // a straight beam that turns is not bent
 }

@@ -39,8 +39,8 @@ TEST(Overviews, AKymographHasAColourForEachPlaceAndInstant) {
     EXPECT_NEAR(cells.x.front(), 0.2, 1e-12);
     EXPECT_NEAR(cells.x.back(), 0.3, 1e-12);
     EXPECT_EQ(cells.y.back(), 1);
-    ASSERT_EQ(figure.panels[0].marks.size(), 1u);
-    EXPECT_NEAR(figure.panels[0].marks[0].x, 0.277394, 1e-6);
+    ASSERT_EQ(figure.panels[0].series.at(0).x.size(), 1u);  // an impact
+    EXPECT_NEAR(figure.panels[0].series[0].x[0], 0.277394, 1e-6);
 }
 
 // A stiff impact lasts less than equally spaced rows of ten seconds are apart, of which one pair spans 0.8 of the

@@ -102,10 +102,24 @@ TEST(Series, ComparesMotions) {
     EXPECT_EQ(figure.title, "Hub angle $θ$");
     const Figure both = figure_of(
         R"("panels": [{"channels": ["theta"], "right": ["gap"]}], "compare": [{"label": "a"}, {"label": "b"}])");
-    ASSERT_EQ(both.panels[0].series.size(), 4u);
-    EXPECT_EQ(both.panels[0].series[3].label, "b, $g$");
-    EXPECT_TRUE(both.panels[0].series[3].right);
-    EXPECT_EQ(both.panels[0].right->label, "$g$ / mm");
+    // A panel with two axes shows one motion, and its axes have the keys of the curves.
+    ASSERT_EQ(both.panels.size(), 2u);
+    EXPECT_EQ(both.panels[1].title, "b");
+    ASSERT_EQ(both.panels[1].series.size(), 2u);
+    EXPECT_EQ(both.panels[1].series[1].label, "");
+    EXPECT_TRUE(both.panels[1].series[1].right);
+    EXPECT_EQ(both.panels[1].right->label, "$g$ / mm");
+}
+
+TEST(Series, CoincidingCurvesHaveOneLook) {
+    const Figure figure = figure_of(
+        R"("channels": ["theta"], "compare": [{"label": "a"}, {"label": "rigid", "set": {"beam.model": "rigid"}},
+           {"label": "b", "set": {"solver.rtol": 1e-9}}])");
+    const auto& curves = figure.panels[0].series;
+    ASSERT_EQ(curves.size(), 3u);
+    EXPECT_EQ(curves[0].look, curves[2].look);
+    EXPECT_NE(curves[0].look, curves[1].look);
+    EXPECT_TRUE(figure.panels[0].legend);
 }
 
 TEST(Series, TakesLimitsInTheUnitsOfTheScene) {
