@@ -155,7 +155,7 @@ void PanelNames::draw_labels_beside(const Plot& plot) const {
 // middle here.
 void PanelNames::draw_key_of_axis(bool right, const std::string& first_line, Vec2 middle) const {
     constexpr double kLength = 2.6;  // as in the legend
-    const auto is_of_axis = [&](const Series& s) { return s.right == right; };
+    const auto is_of_axis = [&](const Series& s) { return s.right == right && s.line; };
     const auto first = std::ranges::find_if(panel_.series, is_of_axis);
     if (first == panel_.series.end() || first_line.empty()) return;
     Series key = *first;

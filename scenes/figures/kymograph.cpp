@@ -37,15 +37,17 @@ std::vector<double> deflections(const std::vector<sim::Pose>& poses, std::size_t
 }
 
 Panel kymograph_panel(const std::vector<double>& v, const ShownPoses& shown, double length, bool magnitudes) {
-    double most = 0;
-    for (const double each : v) most = std::max(most, std::abs(each));
+    constexpr double kNegligible = 0.01;  // of the largest magnitude
+    const auto [least, greatest] = std::ranges::minmax(v);
+    const double most = std::max(-least, greatest);
+    const bool is_signed = least < -kNegligible * most;
     const render::Prefix prefix = render::prefix_for(most);
     const double range = most > 0 ? most : 1;
     const render::figure::ColorBar bar{
         .label = fmt::format("{0}$v$($x$, $t$){0} / {1}m", magnitudes ? "|" : "", prefix.symbol),
-        .from = magnitudes ? 0 : -range / prefix.factor,
+        .from = is_signed ? -range / prefix.factor : 0,
         .to = range / prefix.factor,
-        .is_signed = !magnitudes,
+        .is_signed = is_signed,
         .root = true};
     render::figure::Cells cells;
     for (int k = 0; k <= kColumns; ++k) cells.x.push_back(shown.from + (shown.to - shown.from) * k / kColumns);
