@@ -57,7 +57,6 @@ void Chart::make_rows(const Fonts& fonts) {
         row.series.push_back(c_.panel.series[k]);
         std::erase_if(row.events, [k](const figure::EventTick& at) { return at.lane != static_cast<int>(k); });
         for (figure::EventTick& at : row.events) at.lane = 0, at.lanes = 1;
-        row.y.round_ends = false;
     }
     Image none(1, 1);
     for (std::size_t k = 0; k < rows; ++k) {

@@ -207,8 +207,8 @@ static int decimals_of_still(double t) {
     return kOfEvents;
 }
 
-// One digit beyond the smallest step or, from three decimals on, as many as distinguish frames: above a second four, as
-// 9 is a nanosecond.
+// One digit beyond the smallest step or, from three decimals on, as many as distinguish frames: of a second four at
+// most, 9 is a nanosecond.
 static int decimals_of_frames(const std::vector<double>& times, double unit, double span) {
     // Steps of few frames are ignored, and those of rounding: the beginnings and ends of freezes.
     std::vector<double> steps;
@@ -218,7 +218,7 @@ static int decimals_of_frames(const std::vector<double>& times, double unit, dou
     std::ranges::nth_element(steps, steps.begin() + rare);
     const double step = steps[static_cast<std::size_t>(rare)];
     const int least = -static_cast<int>(std::floor(std::log10(step / unit)));
-    return std::clamp(std::max(std::min(least + 1, 3), least), 1, span < 1 ? 9 : 4);
+    return std::clamp(std::max(std::min(least + 1, 3), least), 1, unit == 1 ? 4 : 9);
 }
 
 TimeFormat time_format(const std::vector<double>& times, double latest) {

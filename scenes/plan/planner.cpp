@@ -20,6 +20,7 @@ std::string omitted_panels(const PlannedPictures& picture) {
     if (!picture.layout) return out;
     render::Shown shown = picture.view.show;
     shown.captions = !picture.times.callouts.empty();
+    shown.warning = false;  // few motions need it
     for (const render::PanelSpec& panel :
          render::omitted_panels(picture.size.width, picture.size.height, *picture.layout, shown))
         out += (out.empty() ? "" : ", ") +

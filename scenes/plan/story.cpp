@@ -139,9 +139,9 @@ LayoutNode impact_layout(bool has_force, const Size& size) {
                      force = leaf({.kind = PanelKind::strip,
                                    .channels = {{ChannelKind::contact_force, 0}},
                                    .by_collision = true});
-    constexpr int kSmall = 540;  // height of a picture without room for the close-up [px]
+    constexpr int kSmall = 540;  // height of a picture without room for four panels [px]
     if (size.width < size.height) return group(rows, {near, group(columns, {overview, contact}, 1.4), force});
-    if (size.height < kSmall) return group(rows, {group(columns, {near, overview}, 1.3), force});
+    if (size.height < kSmall) return group(columns, {leaf({.kind = PanelKind::mechanism}, 1.55), force});
     return group(rows, {group(columns, {near, group(rows, {overview, contact})}, 2.4), force});
 }
 
@@ -231,7 +231,7 @@ PictureOutput told_settle(PictureOutput film, const Scene& scene, const sim::Res
     for (std::size_t k = 1; k < span.speed.intervals.size(); ++k)  // the film never slows down
         span.speed.intervals[k].factor = std::max(span.speed.intervals[k].factor, span.speed.intervals[k - 1].factor);
     span.hold = kHold;
-    film.view.keyframes = {{.at = at_time(slow_until),
+    film.view.keyframes = {{.at = at_time(first.t_start),
                             .zoom = kNear,
                             .follow = render::Anchor{render::Anchor::Kind::contact},
                             .over = kMove}};
