@@ -100,7 +100,8 @@ static void visit_interval(SceneVisitor& v, SeriesKeys& series, const KeyOfFigur
                         list_of_figures_with("from"))
                 .c_str());
     v.value(key("to"), bound_format(series.to, series.to_event, &series.to_last),
-            "Last instant; by default the end of the scene, or in \"strobe\" the first impact, in \"kymograph\" the "
+            "Last instant; a first event that does not occur is the end of the scene. By default that end, or in "
+            "\"strobe\" the first impact, in \"kymograph\" the "
             "apex after it.");
 }
 

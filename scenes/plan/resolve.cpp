@@ -109,6 +109,9 @@ FigureOutput with_times_of(FigureOutput how, const sim::Result& motion, double e
     };
     const auto from_event = how.series.from_event, to_event = how.series.to_event;
     const std::optional<Instant> usual = usual_end(how);
+    // A figure of a whole motion that lacks the event at its end ends with the scene.
+    std::optional<Instant>& to = how.series.to_event;
+    if (to && to->number == 1 && !how.series.from_event && !find_instant(*to, motion)) to.reset();
     SeriesKeys series = with_times(std::move(how.series), motion);
     if (const auto end_of_type = usual ? find_instant(*usual, motion) : std::nullopt)
         if (*end_of_type > series.from) series.to = end_of_type;

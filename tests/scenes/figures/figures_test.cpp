@@ -127,10 +127,10 @@ TEST(Figures, TheTrialMethodSearchesBesideItsFirstPoints) {
     EXPECT_LE(*std::ranges::min_element(arrivals.series[0].y), arrivals.marks[0].y + 0.05);  // [ms]
 }
 
-TEST(Figures, TheStrobeEndsAtTheFirstImpact) {
-    const auto end_of = [](const std::string& mechanics) {
-        const Scene scene =
-            scene_from("{" + mechanics + R"("time": {"end": 1}, "outputs": [{"type": "figure", "figure": "strobe"}]})");
+TEST(Figures, OfVibrationEndAtEventsIfTheMotionHasThem) {
+    const auto end_of = [](const std::string& mechanics, const std::string& name = "strobe") {
+        const Scene scene = scene_from("{" + mechanics + R"("time": {"end": 1}, "outputs": [{"type": "figure",
+            "figure": ")" + name + R"("}]})");
         const auto find = [](const sim::Problem& problem, const sim::Request& request) {
             return sim::simulate(problem, request);
         };
@@ -138,6 +138,8 @@ TEST(Figures, TheStrobeEndsAtTheFirstImpact) {
     };
     EXPECT_NEAR(end_of(""), 0.277, 0.001);
     EXPECT_EQ(end_of(R"("cam": null, )"), 1);
+    EXPECT_NEAR(end_of("", "tip-vibration"), 0.53, 0.02);
+    EXPECT_EQ(end_of(R"("cam": null, )", "tip-vibration"), 1);
     EXPECT_EQ(end_of(R"("initial": {"shape": "resting"}, "cam": {"speed": 0}, )"), 1);
 }
 
