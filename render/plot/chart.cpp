@@ -8,7 +8,7 @@ namespace beamcam::render {
 namespace {
 
 constexpr double kBetweenReadings = 18;               // [design px]
-constexpr double kBetweenRows = 1, kLowestRow = 1.1;  // in sizes of the numbers
+constexpr double kBetweenRows = 1, kLowestRow = 0.9;  // in sizes of the numbers
 
 void draw_all(Canvas& canvas, const std::vector<figure::Plot>& rows, const figure::Interval& part) {
     for (const figure::Plot& row : rows) row.draw_data(canvas, part);
@@ -169,7 +169,7 @@ void Chart::draw_peaks(Canvas& canvas, const std::vector<figure::Plot>& rows, do
         const std::string text = reading_text(peaks[i].y);
         if (i < readings.size() && text == reading_text(readings[i])) continue;
         const double wide = canvas.measure(text, style).w;
-        const bool above = at.y > row.box().y + 0.7 * size;
+        const bool above = at.y > row.box().y + (i == 0 ? 0.7 : 1) * size;  // ticks of events are above lower rows
         const double right = above ? std::min(at.x + wide / 2, cursor - gap) : at.x - gap;
         canvas.text({std::max(right, area_.x + wide), at.y + (above ? -0.45 : 0.35) * size}, text, style);
     }
@@ -197,10 +197,13 @@ void Chart::draw_heading(Canvas& canvas) const {
                 heading_style());
 }
 
-// In the unit of the axis, with the decimals that its ticks ask for.
+// In the unit of the axis, with the decimals that its ticks ask for; zero, and what is rounding beside a tick, has
+// none.
 std::string Chart::reading_text(double value) const {
     const std::string unit = plots_[0].y().unit();
-    return fixed(plots_[0].y().tick_value(value), digits_) + (unit.empty() || unit == "°" ? unit : "\u00A0" + unit);
+    const double number = plots_[0].y().tick_value(value);
+    const bool zero = std::abs(number) < 1e-9 * plots_[0].y().step();
+    return fixed(number, zero ? 0 : digits_) + (unit.empty() || unit == "°" ? unit : "\u00A0" + unit);
 }
 
 double Chart::widest_reading(Canvas& canvas) const {

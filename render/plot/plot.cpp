@@ -222,12 +222,12 @@ void Plot::draw_y_axis(Painter& on) const {
     }
     TextStyle text = style_->tick_numbers();
     text.align = HAlign::right;
-    // Where numbers would touch each other, the first and the last remain.
+    // Where numbers would touch each other, the first and the last remain, or the last alone.
     std::vector<Tick> ticks = y_->ticks();
-    const auto is_minor = [](const Tick& tick) { return !tick.major; };
-    ticks.erase(std::ranges::find_if(ticks, is_minor), ticks.end());
-    if (y_->step() / (y_->ends().high - y_->ends().low) * box_.h < 1.1 * style_->numbers)
-        for (std::size_t i = 1; i + 1 < ticks.size(); ++i) ticks[i].label.clear();
+    std::erase_if(ticks, [](const Tick& tick) { return !tick.major; });
+    const double apart = y_->step() / (y_->ends().high - y_->ends().low) * box_.h, least = 1.1 * style_->numbers;
+    const bool few = !ticks.empty() && (ticks.back().at - ticks.front().at) * box_.h < 0.9 * style_->numbers;
+    for (std::size_t i = few ? 0 : 1; apart < least && i + 1 < ticks.size(); ++i) ticks[i].label.clear();
     draw_ticks(on, ticks, box_, Side::left,
                {.pen = {style_->palette->grid, style_->frame, {}, Cap::butt},
                 .major = box_.w,
