@@ -286,6 +286,7 @@ std::string accuracy_json(const sim::Accuracy& a) {
          {"units", object_node({{"error", "rad"}, {"seconds", "s"}, {"trusted_until", "s"}, {"touch_error", "s"}})},
          {"end_time", a.end_time},
          {"until", a.until},
+         {"reference_method", sim::name(a.reference_method)},
          {"reference_error", a.reference_error},
          {"target", a.target},
          {"time_integration", std::move(work)},

@@ -55,7 +55,8 @@ std::string accuracy_text(const sim::Accuracy& a) {
                                                    "{} over the first {:.4g} s of {:.4g} s: after that the motion is "
                                                    "not reproducible with these settings\n",
                                                    angle, a.until, a.end_time);
-    text += fmt::format("error of the reference (rk8, rtol 1e-13): about {:.0e} rad\n", a.reference_error);
+    text += fmt::format("error of the reference ({}, rtol 1e-13): about {:.0e} rad\n", sim::name(a.reference_method),
+                        a.reference_error);
     text += heading("time integration: against the reference", a.target);
     for (const auto& row : a.work) text += row_text(fmt::format("{} {:.0e}", name(row.method), row.rtol), row);
     if (!a.modes.empty()) {

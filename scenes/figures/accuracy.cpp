@@ -83,8 +83,8 @@ Figure accuracy_figure(const sim::Accuracy& a, const sim::Problem& problem, Lang
                   .panels = lettered(std::move(panels)),
                   .aspect = aspect};
     add_caption(figure, std::vector{problem});
-    figure.accuracy =
-        fmt::format("The reference, rk8 at 10^{{−13}}, is good to about {} rad.", number(a.reference_error, 1));
+    figure.accuracy = fmt::format("The reference, {} at 10^{{−13}}, is good to about {} rad.",
+                                  sim::name(a.reference_method), number(a.reference_error, 1));
     return figure;
 }
 

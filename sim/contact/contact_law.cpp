@@ -22,6 +22,10 @@ ForceAndSlopes NormalLaw::linearized(double penetration, double rate, double app
     return {f, exponent * f / penetration, stored * damping / approach};
 }
 
+double NormalLaw::penetration(double normal, double rate, double approach) const {
+    return std::copysign(std::pow(std::fabs(normal) / (stiffness * factor(rate, approach)), 1 / exponent), normal);
+}
+
 double NormalLaw::stored_energy(double penetration) const {
     return penetration > 0 ? elastic(penetration) * penetration / (exponent + 1) : 0;
 }

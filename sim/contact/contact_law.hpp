@@ -34,6 +34,8 @@ struct NormalLaw {
     double force(double penetration, double rate, double approach) const {  // [N]
         return linearized(penetration, rate, approach).force;
     }
+    // The penetration [m] at which the force is `normal` [N]; of the opposite force it is the opposite.
+    double penetration(double normal, double rate, double approach) const;
     double elastic(double penetration) const;        // K δⁿ [N]
     double stored_energy(double penetration) const;  // K δⁿ⁺¹/(n+1) [J]
     // 1 + D δ̇/δ̇₋; where it is negative the force is clamped.

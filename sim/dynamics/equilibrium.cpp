@@ -12,13 +12,11 @@
 namespace beamcam::sim {
 namespace {
 
-constexpr double kShallowDifference = 0.1;  // of the static penetration: step of finite differences in a stiff contact
 // The load mgL²/(EI) grows by this from one equilibrium to the next; up to 7 are followed. A beam that needs more steps
 // than the second number is a chain: its load is 5·10³.
 constexpr double kLoadStep = 5, kMostLoadSteps = 1000;
-constexpr double kRestingLoadStep = 0.5;   // the same on the cam, which a beam bent in one step would leave
-constexpr double kEquilibriumGap = 1e-10;  // of the length: largest gap of a beam that rests on the cam
-constexpr double kSeparatedPull = 1e-6;    // of K: the spring that pulls a separated iterate back to the cam
+constexpr double kRestingLoadStep = 0.5;  // the same on the cam, which a beam bent in one step would leave
+constexpr double kShallowest = 1e-6;      // of the length: kBalanced of it is the rounding of a gap
 // [rad] of the cam: step of finite differences of fourth order, at which truncation and rounding are equal.
 constexpr double kFollowingDifference = 5e-3;
 
@@ -130,8 +128,8 @@ bool soften(const System& given, double load_step, Solve&& solve) {
 }
 
 // Solves for `s.xi`, the beam on the cam at time t in equilibrium with gravity, torque, friction and the inertia of the
-// given motion: f + τh + (J_n + r J_t)ᵀN = M ξ̈, with N = Kδⁿ or, in impulsive contact, the N that keeps the gap at
-// zero. False if there is no solution, or none with N >= 0.                                                   (S40)
+// given motion: f + τh + (J_n + r J_t)ᵀN = M ξ̈, gap = −δ(N), or 0 in impulsive contact. False if there is no solution,
+// or none with N >= 0.                                                                                        (S40)
 bool equilibrium_on_cam(System& system, double t, FollowingState& s) {
     const int n = system.coordinates();
     const Problem& problem = system.problem();
@@ -140,41 +138,27 @@ bool equilibrium_on_cam(System& system, double t, FollowingState& s) {
     Model& model = system.model();
     std::vector<double> y(static_cast<std::size_t>(system.size), 0.0);
     std::copy_n(s.rate.data(), n, y.begin() + n);
-    const double stiffness = system.normal_law().stiffness, approach = problem.contact.approach_floor.value;
-    Eigen::VectorXd x(n + (rigid_contact ? 1 : 0)), scale(x.size()), size(x.size()), force(n);
-    x.head(n) = s.xi;
-    scale.head(n) = scales(problem, n);
-    size.head(n) = moves ? acceleration_sizes(system, n) : force_sizes(system, n);
-    if (rigid_contact) {
-        scale[n] = force_size(system);
-        x[n] = 0.5 * scale[n];
-        size[n] = problem.beam.length;
-    }
+    const double approach = problem.contact.approach_floor.value;
+    Eigen::VectorXd x(n + 1), scale(n + 1), size(n + 1), force(n);
+    scale << scales(problem, n), force_size(system);
+    const double depth = rigid_contact ? problem.beam.length : system.normal_law().penetration(scale[n], 0, approach);
+    size << (moves ? acceleration_sizes(system, n) : force_sizes(system, n)),
+        std::max(depth, kShallowest * problem.beam.length);
+    x << s.xi, 0.5 * scale[n];
     const auto residual = [&](const Eigen::VectorXd& at, Eigen::VectorXd& r) {
         std::copy_n(at.data(), n, y.begin());
         const ContactState c = system.contact(t, y.data());
-        // Compliant contact: a separated beam is pulled back by a linear spring, so that Newton's method converges.
-        const double normal =
-            rigid_contact ? at[n]
-            : c.gap < 0   ? system.normal_law().at(c.disc.radius).force(-c.gap, moves ? -c.gap_rate : 0, approach)
-                          : -c.gap * stiffness * kSeparatedPull;
+        const double normal = at[n];
         const bool solvable = system.generalized_force(t, c, normal, force.data());
         if (moves && solvable) model.solve(force.data());
         if (moves && !solvable) force.setConstant(std::numeric_limits<double>::quiet_NaN());  // rejects the iterate
         r.head(n) = force - s.acceleration;
-        if (rigid_contact) r[n] = c.gap;
+        const NormalLaw law = system.normal_law().at(c.disc.radius);
+        r[n] = c.gap + (rigid_contact ? 0 : law.penetration(normal, moves ? -c.gap_rate : 0, approach));
     };
-    bool found = newton(residual, x, scale, size);
-    if (!found && !rigid_contact) {  // the differences may have exceeded the penetration in a stiff contact
-        const double depth = std::pow(force_size(system) / stiffness, 1 / contact_exponent(problem));
-        x = s.xi;
-        found = newton(residual, x, scale, size,
-                       std::min(kNewtonDifference, kShallowDifference * depth / problem.beam.length));
-    }
+    const bool found = newton(residual, x, scale, size);
     s.xi = x.head(n);
-    if (!found || rigid_contact) return found && x[n] >= -kBalanced * scale[n];
-    std::copy_n(x.data(), n, y.begin());
-    return system.contact(t, y.data()).gap <= kEquilibriumGap * problem.beam.length;
+    return found && x[n] >= -kBalanced * scale[n];
 }
 
 // The start of a beam that follows the turning cam. Equilibria at neighbouring cam angles give the rates, the rates

@@ -23,11 +23,9 @@ Eigen::VectorXd central_difference(F&& f, const Eigen::VectorXd& x, const Eigen:
 }
 
 // Solves function(x, residual) for x from the given guess; false if it does not converge. scale[i] and size[i] are the
-// natural magnitudes of unknown i and of residual i, which make quantities of different units comparable; the step of
-// the finite differences is the share `difference` of the scale.
+// natural magnitudes of unknown i and of residual i, which make quantities of different units comparable.
 template <class F>
-bool newton(F&& function, Eigen::VectorXd& x, const Eigen::VectorXd& scale, const Eigen::VectorXd& size,
-            double difference = kNewtonDifference) {
+bool newton(F&& function, Eigen::VectorXd& x, const Eigen::VectorXd& scale, const Eigen::VectorXd& size) {
     const Eigen::Index n = x.size();
     Eigen::VectorXd f(n), g(n);
     Eigen::MatrixXd jacobian(n, n);
@@ -38,8 +36,8 @@ bool newton(F&& function, Eigen::VectorXd& x, const Eigen::VectorXd& scale, cons
     residual(x, f);
     for (int iteration = 0; iteration < kMostIterations; ++iteration) {
         for (Eigen::Index j = 0; j < n; ++j) {
-            const Eigen::VectorXd step = difference * scale[j] * Eigen::VectorXd::Unit(n, j);
-            jacobian.col(j) = central_difference(residual, x, step) / difference;
+            const Eigen::VectorXd step = kNewtonDifference * scale[j] * Eigen::VectorXd::Unit(n, j);
+            jacobian.col(j) = central_difference(residual, x, step) / kNewtonDifference;
         }
         const Eigen::VectorXd dx = solve(jacobian, -f).cwiseProduct(scale);
         if (!dx.allFinite()) return false;

@@ -70,6 +70,7 @@ struct Accuracy {
     bool of_tip = false;         // the hub angle is prescribed: errors are those of tip deflection over length
     double end_time = 0;         // requested [s]
     double until = 0;            // end of reproducibility; all errors refer to [0, until] [s]
+    Method reference_method = Method::rk8;
     double reference_error = 0;  // estimated error of the reference [rad]
     double target = 0;
     int most_modes = 0;                       // number of shapes of the reference for `modes`

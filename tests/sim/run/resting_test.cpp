@@ -72,6 +72,27 @@ TEST(Resting, UnderATorqueWithoutGravityTheForceBalancesTheTorqueAndStaysConstan
         }
 }
 
+// A spring-steel reed, whose static penetration of 10⁻¹⁰ m is far below its deflection.
+TEST(Resting, AThinBeamOnAStiffCamHasItsEquilibrium) {
+    for (const ModelKind kind : {ModelKind::rigid, ModelKind::first_order, ModelKind::exact})
+        for (double at = 0.1; at < 0.15; at += 0.005) {
+            Problem p;
+            p.beam.length = 0.18;
+            p.beam.section = Rectangle{0.015, 0.0005};
+            p.beam.material = Material::steel;
+            p.beam.model = kind;
+            p.cam->centre = {at, -0.015};
+            p.cam->radius = 0.02;
+            p.cam->eccentricity = p.cam->speed = 0;
+            p.contact.stiffness.reset();
+            p.initial.shape = InitialShape::resting;
+            const std::vector<double> force = series(p, "contact_force", {0, 0.001, 0.01});
+            const double weight = p.beam.line_density() * p.beam.length * p.gravity;
+            EXPECT_NEAR(force[0], 0.5 * p.beam.length / at * weight, 0.05 * weight) << name(kind) << " " << at;
+            for (const double later : force) EXPECT_NEAR(later, force[0], 1e-4 * force[0]) << name(kind) << " " << at;
+        }
+}
+
 // N x_c = ½mgL cos θ, up to the rounding of the gap, n 10⁻¹⁵ m/δ of the force.
 TEST(Resting, StiffContactsHaveTheirEquilibrium) {
     for (const double stiffness : {1e6, 1e8, 1e10, 1e12})
