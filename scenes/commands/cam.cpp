@@ -96,6 +96,8 @@ void write_outline(const std::string& file, const Scene& scene, const sim::Lever
 int act(const CamArguments& args) {
     const Scene scene = load_scene(args.scene, args.common);
     if (!scene.problem.cam) throw SceneError(fmt::format("{}: the scene has no cam; give it one\n", args.scene));
+    if (std::ranges::any_of(args.files, is_stdout))
+        throw UsageError("-o -: name a file; standard output gets the summary");
     output::FileList file_list(args.common.force);
     require_writable("-o", args.files, {".csv", ".npz", ".svg", ".pdf"}, file_list);
     const sim::Lever lever(scene.problem);

@@ -49,7 +49,8 @@ Source override_source(const std::string& text) { return {fmt::format("--set {}"
 std::string problem_with_override(const std::string& text) {
     const std::size_t equals = text.find('=');
     if (equals != std::string::npos && equals > 0) return {};
-    return "\"=\" is missing after the key; write --set key.path=value, for example --set beam.modes=4";
+    return fmt::format("{}; write --set key.path=value, for example --set beam.modes=4",
+                       equals == 0 ? "the key is missing before \"=\"" : "\"=\" is missing after the key");
 }
 
 void apply_override(Node& root, const std::string& text, std::size_t source, std::vector<Message>& messages) {

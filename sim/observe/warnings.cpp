@@ -53,7 +53,9 @@ void warn_of_slopes(const Problem& problem, double largest_elastic, std::vector<
 
 // Newton's law creates energy where friction turns the slip around during an impact (Kane & Levinson 1985).
 void warn_of_gains(const Problem& problem, const Result& result, std::vector<std::string>& out) {
-    if (problem.contact.model != ContactModel::restitution) return;
+    if (problem.contact.model != ContactModel::restitution ||
+        std::holds_alternative<NoFriction>(problem.contact.friction))
+        return;
     double gained = 0;
     long count = 0;
     for (const Impact& impact : result.impacts)
