@@ -29,7 +29,6 @@ class Run {
     // To the end, or until all observers are done. Throws SolverError, without results, and Interrupted.
     void integrate();
 
-    bool started() const { return started_; }  // an initial state was found
     const System& system() const { return dynamics_; }
     const RunState& state() const { return state_; }
     RunStatistics statistics() const;

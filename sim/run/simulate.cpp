@@ -35,7 +35,7 @@ std::vector<Result> integrate(const Problem& problem, std::span<const Request> r
     try {
         run->integrate();
     } catch (SolverError& error) {
-        if (!run->started()) throw;
+        if (run->state().t == 0) throw;  // nothing was integrated
         for (Recorder& recorder : recorders)
             if (!recorder.done()) recorder.finish(run->state().t, run->state().y.data());
         error.partials = results();

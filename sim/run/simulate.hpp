@@ -22,7 +22,7 @@ inline constexpr long kStepsPerReport = 16;  // steps between two calls of `prog
 struct SolverError : std::runtime_error {
     SolverError(const std::string& what, double last_good_time, std::vector<Result> partial_results);
     double last_time;
-    std::vector<Result> partials;  // one per Request; empty if no initial state was found
+    std::vector<Result> partials;  // one per Request; empty if nothing was integrated
 };
 struct Interrupted : std::runtime_error {
     Interrupted() : std::runtime_error("interrupted") {}
