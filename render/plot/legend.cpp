@@ -8,6 +8,18 @@ namespace beamcam::render::figure {
 namespace {
 // In sizes of letters: the length of a line, the height of a row, and the space between entries.
 constexpr double kSampleLength = 2.6, kRow = 1.35, kBetween = 0.75;
+
+// The labels of the lines that look like `first`, which share an entry; empty if an earlier line has it.
+std::string shared_label(const std::vector<Series>& all, const Series& first) {
+    std::string label;
+    for (const Series& s : all) {
+        const bool alike = &s == &first || (s.line && first.line && s.look == first.look && s.dash == first.dash);
+        if (!alike || s.label.empty()) continue;
+        if (label.empty() && &s != &first) return {};
+        label += (label.empty() ? "" : ", ") + s.label;
+    }
+    return label;
+}
 }  // namespace
 
 LegendAbove::LegendAbove(const Panel& panel, const PlotStyle& style, PageCanvas& sheet, bool shown)
@@ -19,7 +31,8 @@ LegendAbove::LegendAbove(const Panel& panel, const PlotStyle& style, PageCanvas&
         widest_ = std::max(widest_, width);
     };
     if (!shown) return;
-    for (const Series& s : panel.series) add(s.label, &s, {}, false);
+    for (const Series& s : panel.series)
+        if (!s.label.empty()) add(shared_label(panel.series, s), &s, {}, false);
     for (const Band& b : panel.bands) add(b.label, nullptr, pale(look(b.look).color, 0.72), false);
     for (const Cloud& c : panel.clouds) add(c.label, nullptr, c.color, true);
     for (const Swatch& w : panel.swatches) add(w.label, nullptr, w.color, false);

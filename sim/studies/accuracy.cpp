@@ -17,7 +17,7 @@ namespace {
 constexpr double kReferenceRtol = 1e-13;    // the tightest tolerance
 constexpr double kCheckRtol = 1e-12;        // of the run that estimates the error of the reference
 constexpr double kReferenceRuns = 50;       // time limit of the reference and of contact variants, in longest runs
-constexpr double kIndependentRuns = 10;     // the same of a reference by another method than the scene's
+constexpr double kIndependentRuns = 5;      // the same of a reference by another method than the scene's
 constexpr double kModesRuns = 5;            // the same of each number of shapes
 constexpr double kModelRuns = 10;           // the same of each model
 constexpr double kShortestPart = 1.0 / 16;  // of the motion: least part over which models are compared
@@ -58,19 +58,13 @@ class Assessment {
 
     // ---- the tables ------------------------------------------------------------------------------
 
-    // The reference is rk8 at the tightest tolerance, or the automatic method if that takes too long; its own error is
-    // estimated by a tenfold tolerance. All comparisons end where the scene's own settings no longer reproduce the
-    // motion.
+    // All comparisons end where the scene's own settings no longer reproduce the motion. The reference up to there is
+    // rk8 at the tightest tolerance, or the automatic method if that takes too long; its own error is estimated by a
+    // tenfold tolerance.
     void compute_reference() {
         trials_.begin(0, 0.1);
         const TrialRun mine = simulate_reference(problem_, request_.end_time);
-        std::optional<TrialRun> independent = trials_.simulate_until(
-            with(kReferenceRtol, Method::rk8), request_.end_time, kIndependentRuns * request_.longest_run, true);
-        if (!independent) out_.reference_method = Method::automatic;
-        const auto reference = [&](double rtol, double end) {
-            return simulate_reference(with(rtol, out_.reference_method), end);
-        };
-        const TrialRun truth = independent ? std::move(*independent) : reference(kReferenceRtol, request_.end_time);
+        const TrialRun truth = simulate_reference(with(kReferenceRtol), request_.end_time);
         double until = request_.end_time;
         for (std::size_t k = 0; k < truth.angle.size(); ++k) {
             if (std::fabs(mine.angle[k] - truth.angle[k]) <= kReproducible * std::max(1.0, std::fabs(truth.angle[k])))
@@ -79,8 +73,11 @@ class Assessment {
             break;
         }
         out_.until = until;
-        reference_ = reference(kReferenceRtol, until);
-        const TrialRun check = reference(kCheckRtol, until);
+        std::optional<TrialRun> independent = trials_.simulate_until(with(kReferenceRtol, Method::rk8), until,
+                                                                     kIndependentRuns * request_.longest_run, true);
+        if (!independent) out_.reference_method = Method::automatic;
+        reference_ = independent ? std::move(*independent) : simulate_reference(with(kReferenceRtol), until);
+        const TrialRun check = simulate_reference(with(kCheckRtol, out_.reference_method), until);
         for (std::size_t k = 0; k < check.angle.size(); ++k)
             out_.reference_error = std::max(out_.reference_error, std::fabs(check.angle[k] - reference_.angle[k]));
         // Rounding of the angle itself.

@@ -17,7 +17,10 @@
 namespace beamcam::render::figure {
 namespace {
 
+using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::IsSupersetOf;
+using ::testing::Not;
 
 Figure plot(std::vector<double> x, std::vector<double> y) {
     Figure figure;
@@ -257,12 +260,25 @@ TEST(Figure, ALegendAboveSavesLines) {
     Panel& panel = figure.panels[0];
     panel.series[0].label = "kinetic";
     for (const char* label : {"potential", "of bending and of contact", "lost", "external work", "sum"})
-        panel.series.push_back({.label = label, .x = {0, 1}, .y = {0, 1}});
+        panel.series.push_back(
+            {.label = label, .x = {0, 1}, .y = {0, 1}, .look = static_cast<int>(panel.series.size())});
     std::set<double> lines;
     for (const PageCanvas::Written& w : draw_png(figure, "aps").written)
         for (const Series& s : panel.series)
             if (w.markup == s.label) lines.insert(std::round(w.box.bottom() / 4));
     EXPECT_LE(lines.size(), 4u);
+}
+
+TEST(Figure, LinesThatLookAlikeShareAnEntryOfTheLegend) {
+    Figure figure = plot({0, 1}, {0, 1});
+    Panel& panel = figure.panels[0];
+    panel.series[0].label = "exact";
+    panel.series.push_back({.label = "rigid", .x = {0, 1}, .y = {1, 0}, .look = 1});
+    panel.series.push_back({.label = "first-order", .x = {0, 1}, .y = {0, 1}});
+    std::vector<std::string> written;
+    for (const PageCanvas::Written& w : draw_png(figure, "aps").written) written.push_back(w.markup);
+    EXPECT_THAT(written, IsSupersetOf({"exact, first-order", "rigid"}));
+    EXPECT_THAT(written, Not(Contains("first-order")));
 }
 
 // Names without room beside each other are turned, and clear of the label of the axis.
