@@ -502,7 +502,7 @@ TEST(Override, ErrorsNameTheOverride) {
                 HasSubstr("does not contain cam.centre, which entry \"0\" would belong to; set cam.centre itself"));
     EXPECT_THAT(messages(read("{}", {"beam.lenght=1"})), ElementsAre(HasSubstr("did you mean \"length\"?")));
     EXPECT_THAT(messages(read("{}", {"beam"})), ElementsAre(HasSubstr("\"=\" is missing")));
-    EXPECT_THAT(messages(read("{}", {"=3"})), ElementsAre(HasSubstr("\"=\" is missing after the key")));
+    EXPECT_THAT(messages(read("{}", {"=3"})), ElementsAre(HasSubstr("the key is missing before \"=\"")));
     EXPECT_THAT(messages(read("{}", {"beam..modes=3"})), ElementsAre(HasSubstr("empty key")));
     EXPECT_THAT(messages(read("{}", {"beam={\"modes\": }"})), ElementsAre(HasSubstr("a value is missing")));
     EXPECT_THAT(messages(read("{}", {"gravity=1e999"})), ElementsAre(HasSubstr("too large")));
