@@ -20,7 +20,7 @@ std::string peak_text(const FilmContext& context, double force) {
 }  // namespace
 
 // Without room in the smaller size, the last pills are left out.
-ClockLine::ClockLine(const FilmContext& context) : context_(context), peaks_(context) {
+ClockLine::ClockLine(const FilmContext& context) : context_(context) {
     const FilmSetup& setup = *context.setup;
     const bool mechanism = context.places.first(PanelKind::mechanism) != nullptr;
     if (!context.places.clock) return;
@@ -35,10 +35,12 @@ ClockLine::ClockLine(const FilmContext& context) : context_(context), peaks_(con
         std::ranges::any_of(context.places.panels, [](const auto& slot) { return shows_peaks(slot.spec); });
     for (int m = 0; m < context.members() && mechanism && !in_chart && setup.view.show.labels; ++m)
         if (!context.motion(m).impacts.empty() && context.scales.largest_force > 0 &&
-            context.motion(m).problem.contact.model == sim::ContactModel::compliant)
+            context.motion(m).problem.contact.model == sim::ContactModel::compliant) {
+            if (!peaks_) peaks_.emplace(context);
             pills_.push_back({Pill::Kind::peak,
                               peak_text(context, 0.888 * prefix_for(context.scales.largest_force).factor),
                               context.members() > 1 ? context.member_color(m) : context.look.palette.contact, m});
+        }
     steady_ = steady_speed(setup.speeds);
     Image scratch(1, 1);
     const Canvas canvas(scratch, *context.fonts);
@@ -95,7 +97,7 @@ std::string ClockLine::words(const Pill& pill, int frame) const {
         case Pill::Kind::peak:
             break;
     }
-    const double peak = peaks_.of(pill.member, context_.clock.at(frame)).y;
+    const double peak = peaks_->of(pill.member, context_.clock.at(frame)).y;
     return peak > 0 ? peak_text(context_, peak) : std::string();
 }
 

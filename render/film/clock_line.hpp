@@ -2,6 +2,7 @@
 // peak forces of collisions. Sizes and places are the same for all frames.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,7 @@ class ClockLine {
     TextStyle pill_style(const Pill& pill) const;
 
     const FilmContext& context_;
-    Peaks peaks_;
+    std::optional<Peaks> peaks_;  // where pills show them
     std::vector<Pill> pills_;
     bool steady_ = true;  // one speed throughout
     bool has_room_ = true;

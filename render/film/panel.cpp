@@ -6,12 +6,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "render/base/error.hpp"
 #include "render/mechanism/exaggeration.hpp"
 #include "render/plot/ticks.hpp"
 #include "render/plot/user_text.hpp"
+#include "sim/cam/motion_law.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -19,8 +19,6 @@ namespace {
 using sim::Channel;
 using sim::ChannelKind;
 using sim::Pose;
-
-constexpr double kTurn = 2 * std::numbers::pi;
 
 bool has_force(const Motion& motion) {
     const auto* force = column(motion.chart, {ChannelKind::contact_force, 0});
@@ -163,7 +161,7 @@ std::string Units::unit(const std::string& si) const {
 }
 
 double FilmContext::shown_factor(Channel channel) const {
-    if (scales.turns && channel.kind == ChannelKind::theta) return 1 / kTurn;
+    if (scales.turns && channel.kind == ChannelKind::theta) return 1 / sim::kFullTurn;
     return setup->units.factor(sim::unit(channel, setup->problem));
 }
 std::string FilmContext::shown_unit(Channel channel) const {
@@ -240,7 +238,7 @@ void FilmContext::choose_scales() {
             const Pose p = one.surveyed(k);
             for (double value : p.moment) largest = std::max(largest, std::abs(value));
             if (p.nearest) force = std::max(force, p.nearest->force);
-            scales.turns = scales.turns || (setup->units.degrees && std::abs(p.theta) > 2 * kTurn);
+            scales.turns = scales.turns || (setup->units.degrees && std::abs(p.theta) > 2 * sim::kFullTurn);
         }
         // A moment that bends the beam by less than a billionth of its length is a rounding error.
         const double negligible = 1e-9 * one.problem.beam.bending_stiffness() / one.problem.beam.length;

@@ -31,6 +31,7 @@ class DrawnCurve {
 };
 
 // The key of a series in a legend or before the name of an axis: its line and its marker.
+inline constexpr double kSampleLength = 2.6;  // of the line, in sizes of letters
 void draw_sample(Painter& on, const PlotStyle& style, const Series& series, Vec2 from, Vec2 to);
 void draw_marker(Painter& on, const PlotStyle& style, Marker shape, Vec2 at, double radius, Color color, bool hollow);
 inline bool inside(const Box& b, Vec2 p, double slack = 0) { return b.contains({p.x, p.y, 0, 0}, slack); }

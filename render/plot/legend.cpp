@@ -6,8 +6,8 @@
 
 namespace beamcam::render::figure {
 namespace {
-// In sizes of letters: the length of a line, the height of a row, and the space between entries.
-constexpr double kSampleLength = 2.6, kRow = 1.35, kBetween = 0.75;
+// In sizes of letters: the height of a row, and the space between entries.
+constexpr double kRow = 1.35, kBetween = 0.75;
 
 // The labels of the lines that look like `first`, which share an entry; empty if an earlier line has it.
 std::string shared_label(const std::vector<Series>& all, const Series& first) {

@@ -1,6 +1,7 @@
 // `beamcam cam`: the outline of the cam and the straight lever that follows it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>

@@ -66,8 +66,7 @@ class SeriesPanelMaker {
 
     std::vector<Panel> make() {
         panel_.title = keys_.title;
-        if (planned_.motions.size() < plan_.motions.size())
-            panel_.title = first_.label + (keys_.title.empty() ? "" : ": ") + keys_.title;
+        if (shows_some()) panel_.title = first_.label + (keys_.title.empty() ? "" : ": ") + keys_.title;
         if (!has_sums()) panel_.name = name(keys_.channels.front());
         if (keys_.logarithmic) panel_.y.scale = render::Scale::logarithmic;
         panel_.y.from = keys_.low, panel_.y.to = keys_.high;
@@ -89,6 +88,7 @@ class SeriesPanelMaker {
 
   private:
     bool has_sums() const { return !keys_.sums.empty(); }
+    bool shows_some() const { return planned_.motions.size() < plan_.motions.size(); }  // not all motions
     // A logarithmic axis shows the magnitude of the change of the energy balance.
     bool is_closure() const {
         return keys_.logarithmic && keys_.channels.front().kind == sim::ChannelKind::energy_residual;
@@ -132,7 +132,7 @@ class SeriesPanelMaker {
             side.rows.push_back(rows_of(curve));
             most = std::max(most, largest_magnitude(side.rows.back().values.back()));
         }
-        if (planned_.motions.size() < plan_.motions.size()) most = std::max(most, largest_of_all(side.right));
+        if (shows_some()) most = std::max(most, largest_of_all(side.right));
         const Channel& first = side.channels.front();
         if (!(most > 0) && std::ranges::none_of(side.rows, has_values))
             throw render::PictureError(
