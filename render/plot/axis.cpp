@@ -235,22 +235,25 @@ void AxisMap::logarithmic(const Axis& axis, int most) {
     ends_.high = b;
     const auto at = [&](double v) { return reversed_ ? (b - v) / (b - a) : (v - a) / (b - a); };
     const int first = static_cast<int>(std::ceil(a - 1e-9)), last = static_cast<int>(std::floor(b + 1e-9));
-    const int stride = std::max(1, (last - first + most) / std::max(1, most));
-    // Within less than two decades 2 and 5 have numbers as well; over many decades minor ticks would be a blur.
-    const bool few = last - first < 1;
+    // Three numbers at least, where three have room: within less than two decades 2 and 5 have numbers as well, or 3.
+    int stride = std::max(1, (last - first + most) / std::max(1, most));
+    if (most > 2) stride = std::min(stride, std::max(1, (last - first + 1) / 3));
+    const bool few = last - first < 1 || (last - first < 2 && 3 * (b - a) <= most + 2);
+    const bool two = !few && most > 2 && last - first < 2;
     const auto label = [&](int digit, int n) {
-        if (few && std::abs(n) <= 3) return fixed(digit * ten_to(n), std::max(0, -n));
+        if ((few || two) && std::abs(n) <= 3) return fixed(digit * ten_to(n), std::max(0, -n));
         return digit == 1 ? power_of_ten(n) : fmt::format("{}×{}", digit, power_of_ten(n));
     };
     for (int n = first; n <= last; ++n) {
         const bool labelled = n % stride == 0;
         ticks_.push_back({std::clamp(at(n), 0.0, 1.0), labelled ? label(1, n) : "", labelled});
     }
+    // Over many decades minor ticks would be a blur.
     for (int n = first - 1; n <= last && last - first <= most; ++n)
         for (int digit = 2; digit <= 9; ++digit) {
             const double v = n + std::log10(digit);
             if (v < a || v > b) continue;
-            const bool labelled = few && (digit == 2 || digit == 5 || last < first);
+            const bool labelled = (few && (digit == 2 || digit == 5 || last < first)) || (two && digit == 3);
             ticks_.push_back({at(v), labelled ? label(digit, n) : "", labelled});
         }
 }

@@ -96,7 +96,7 @@ struct ColorBar {
     Scale scale = Scale::linear;
     std::optional<double> from = {}, to = {};
     bool is_signed = false;  // signed_color, from −to to `to`; else map_color
-    bool root = false;       // colours follow the square root of the share, so that small values differ too
+    bool root = false;       // colours follow the square root of the share, beyond 2 % of the largest
     bool operator==(const ColorBar&) const = default;
 };
 // The colour of a value by its share of the largest: −1…1 if the bar is signed, else 0…1.

@@ -117,6 +117,8 @@ constexpr Phrase kPhrases[] = {
     {"cam phase / turn", "凸轮相位 / 转"},
     {"restitution", "恢复系数"},
     {"next collision", "下一次碰撞"},
+    {"no loss", "无损失"},
+    {"every {}", "每隔 {}"},
     {"displacement", "位移"},
     {"velocity", "速度"},
     {"acceleration", "加速度"},

@@ -196,7 +196,8 @@ void PanelNames::draw_titles(const Plot& plot, double top, bool alone) const {
 }
 
 Color color_of(const ColorBar& bar, double share) {
-    const double shown = bar.root ? std::copysign(std::sqrt(std::abs(share)), share) : share;
+    constexpr double kLinear = 0.02;  // share below which the root is a straight line
+    const double shown = bar.root ? share / std::sqrt(std::max(std::abs(share), kLinear)) : share;
     return bar.is_signed ? signed_color(shown) : map_color(shown);
 }
 

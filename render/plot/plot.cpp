@@ -33,6 +33,15 @@ Extents extents_of(const Panel& panel) {
     return all;
 }
 
+// Where both axes show zero, it is at the same height.
+void align_zeros(Extent& left, Extent& right) {
+    const auto shows_zero = [](const Extent& e) { return e.low <= 0 && e.high >= 0 && e.low < e.high; };
+    if (!shows_zero(left) || !shows_zero(right)) return;
+    const double a = std::max(-left.low, left.high), b = std::max(-right.low, right.high);
+    left.low = std::min(left.low, right.low / b * a), left.high = std::max(left.high, right.high / b * a);
+    right.low = left.low / a * b, right.high = left.high / a * b;
+}
+
 // ---- ticks and their numbers -------------------------------------------------------------------------
 
 struct TickStyle {
@@ -118,7 +127,8 @@ void Plot::fit_x(const Painter& on, const Axis& axis, const Extent& data) {
 
 void Plot::fit(const Painter& on, double width, double height) {
     width_ = width, height_ = height;
-    const auto [ex, ey, er, eb] = extents_of(*panel_);
+    auto [ex, ey, er, eb] = extents_of(*panel_);
+    if (panel_->right) align_zeros(ey, er);
     fit_x(on, panel_->x, ex);
     const int up = style_->palette
                        ? std::clamp(static_cast<int>(height / (45 * style_->unit)), 2, panel_->y.grid ? 6 : 5)

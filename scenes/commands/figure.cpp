@@ -225,8 +225,7 @@ void act(const FigureArguments& given) {
                                      suggestion_or_list(args.figure, names_of_figures_and_presets())));
     }
     reject_options_of_others(args, *type);
-    if (args.file.empty())
-        throw UsageError(fmt::format("figure {}: name the file with -o, ending in .pdf, .svg or .png", args.figure));
+    if (args.file.empty()) args.file = (preset ? preset->name : args.figure) + ".pdf";
     if (const auto refusal = type->refusal(scene))
         throw SceneError(fmt::format("{}: no figure \"{}\": {}", args.scene, type->name, *refusal));
     scene.set_outputs({figure_output(args, preset, scene)});
@@ -305,7 +304,7 @@ void add_figure(Program& program) {
                    "Name of the figure or preset; not needed with --channels (\"series\")");
     app.add_flag("--list", args.list, "List all figures and presets, and which of them this scene cannot have");
     add_option(app, "--preset", args.preset, "FILE", "A preset of your own: .json with the keys of a figure");
-    add_option(app, "-o,--output", args.file, "FILE", "File to make: .pdf, .svg or .png");
+    add_option(app, "-o,--output", args.file, "FILE", "File to make: .pdf, .svg or .png (default: FIGURE.pdf)");
     add_print_options(app, args);
     add_content_options(app, args);
     add_series_options(app, args);

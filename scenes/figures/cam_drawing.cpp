@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "render/draw/text_style.hpp"
+#include "sim/cam/motion_law.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -26,7 +28,7 @@ const render::Pen kCentreLine{kGrey, kThin, {8 * kThin, 3 * kThin, kThin, 3 * kT
 const render::Pen kLeverLine{
     kBlack, 1.5 * kThin, {24 * kThin, 3 * kThin, kThin, 3 * kThin, kThin, 3 * kThin}, render::Cap::butt};
 
-std::string millimetres(double metres) { return fmt::format("{:.5g}", 1e3 * metres); }
+std::string millimetres(double metres) { return fmt::format("{:.2f}", 1e3 * metres); }
 
 class CamDrawing {
   public:
@@ -47,13 +49,18 @@ class CamDrawing {
                 std::min(problem.hub.radius + problem.beam.length, norm(pivot_) + shape_.largest_reach());
             for (const double x : {-start.foot, end - start.foot}) bounds_.add(face_.emplace_back(touched + x * along));
         }
-        if (summary_.jump && summary_.jump->speed > 0) {
-            const double alpha = lever_.at(summary_.jump->phi).alpha;
-            leaves_ = shape_.at(alpha).position(alpha), beside_ = sim::unit(alpha);
-            bounds_.add(leaves_ + kLetters / kPointsPerMetre * Vec2{beside_.x < 0 ? -10.0 : 10.0, 3 * beside_.y});
+        if (problem.cam->profile)
+            if (const auto* law = std::get_if<sim::LawProfile>(&*problem.cam->profile)) name_segments(*law);
+        if (jumps())
+            names_.emplace_back(lever_.at(summary_.jump->phi).alpha,
+                                fmt::format("jump {:.4g} rpm", summary_.jump->speed * 30 / std::numbers::pi));
+        for (const auto& [alpha, name] : names_) {
+            const Vec2 n = sim::unit(alpha);
+            const double wide = 1.6 + 0.55 * static_cast<double>(name.size());
+            bounds_.add(shape_.at(alpha).position(alpha) +
+                        kLetters / kPointsPerMetre * Vec2{n.x < 0 ? -wide : wide, 3 * n.y});
         }
-        const double speed = problem.cam->speed;
-        if (speed != 0) rotation_ = speed > 0 ? "; turns clockwise" : "; turns counter-clockwise";
+        speed_ = problem.cam->speed;
     }
 
     render::figure::Paper paper() const {
@@ -70,11 +77,24 @@ class CamDrawing {
         draw_base_circle();
         draw_sharpest_place();
         draw_lever();
-        draw_jump();
+        draw_names();
+        draw_rotation();
         draw_pivot();
     }
 
   private:
+    bool jumps() const { return summary_.jump && summary_.jump->speed > 0; }
+    // In the middle of each segment; a dwell at both ends of the turn is one.
+    void name_segments(const sim::LawProfile& law) {
+        std::vector<sim::ProgrammedMotion::Segment> all = sim::ProgrammedMotion(law).segments();
+        if (all.size() > 1 && all.front().rise == 0 && all.back().rise == 0) {
+            all.front().start -= all.back().over, all.front().over += all.back().over;
+            all.pop_back();
+        }
+        for (const auto& each : all)
+            names_.emplace_back(lever_.at(each.start + 0.5 * each.over).alpha, sim::name(each.law));
+    }
+
     Vec2 at(Vec2 p) const { return camera_.to_pixels(p); }
     void label(Vec2 where, const std::string& text, render::HAlign align = render::HAlign::centre,
                render::Color halo = kWhite) {
@@ -149,15 +169,30 @@ class CamDrawing {
                    .turned = -std::atan(along.y / along.x)});
     }
 
-    // Where the straight lever leaves the cam at its jump speed.
-    void draw_jump() {
-        if (beside_ == Vec2{}) return;
-        const Vec2 p = at(leaves_), outwards{beside_.x, -beside_.y};
-        to_->circle(p, points(0.7));
+    // Beside the outline: of the segments, and of the place where the straight lever leaves the cam at its jump speed.
+    // Those near the lever are within the cam.
+    void draw_names() {
+        for (const auto& [alpha, name] : names_) {
+            const bool within = std::cos(alpha - lever_.at(0).alpha) > std::numbers::sqrt2 / 2;
+            const Vec2 beside = (within ? -1 : 1) * Vec2{std::cos(alpha), -std::sin(alpha)};
+            label(at(shape_.at(alpha).position(alpha)) + 1.6 * kLetters * beside, name,
+                  beside.x < 0 ? render::HAlign::right : render::HAlign::left, within ? kFill : kWhite);
+        }
+        if (!jumps()) return;
+        const double alpha = names_.back().first;
+        to_->circle(at(shape_.at(alpha).position(alpha)), points(0.7));
         to_->fill(kBlack);
-        label(p + 1.6 * kLetters * outwards,
-              fmt::format("jump {:.4g} rpm", summary_.jump->speed * 30 / std::numbers::pi),
-              outwards.x < 0 ? render::HAlign::right : render::HAlign::left);
+    }
+
+    void draw_rotation() {
+        constexpr double kFrom = 1.9, kTo = 2.8;  // between the centre lines and the diameter [rad]
+        if (speed_ == 0) return;
+        const double radius = 0.5 * base_ * kPointsPerMetre, end = speed_ > 0 ? kFrom : kTo;
+        to_->arc(at({0, 0}), radius, kFrom, kTo);
+        to_->stroke({kBlack, kThin, {}, render::Cap::butt});
+        const Vec2 tip = at({0, 0}) + radius * Vec2{std::cos(end), -std::sin(end)};
+        const Vec2 along = (speed_ > 0 ? 1 : -1) * Vec2{std::sin(end), std::cos(end)};
+        arrow(tip - kLetters * along, tip);
     }
 
     void draw_pivot() {
@@ -182,10 +217,10 @@ class CamDrawing {
             const double side = across.y > 0 ? -1 : 1;  // above the line
             label(0.5 * (o + c) + 1.6 * side * kLetters * across, millimetres(norm(pivot_)));
         }
-        label({kMargin, low + 1.6 * kLetters},
-              fmt::format("1:1, mm; ρ {} … {}{}", millimetres(shape_.least_radius()),
-                          millimetres(shape_.largest_radius()), rotation_),
-              render::HAlign::left);
+        label(
+            {kMargin, low + 1.6 * kLetters},
+            fmt::format("1:1, mm; ρ {} … {}", millimetres(shape_.least_radius()), millimetres(shape_.largest_radius())),
+            render::HAlign::left);
     }
 
     const sim::Lever& lever_;
@@ -193,10 +228,10 @@ class CamDrawing {
     const sim::Lever::Summary summary_ = lever_.summary();
     std::vector<Vec2> outline_;
     std::vector<Vec2> face_;  // of the lever, from its root to where it is cut; empty: no lever reaches the cam
-    Vec2 leaves_, beside_;    // the place of the jump and the outline's normal there, which is zero without a jump
+    std::vector<std::pair<double, std::string>> names_;  // beside the outline's normal [rad]; that of the jump is last
     Vec2 pivot_;
-    double base_ = 0;  // radius of the base circle [m]
-    const char* rotation_ = "";
+    double base_ = 0;   // radius of the base circle [m]
+    double speed_ = 0;  // of the cam [rad/s]
     render::Bounds bounds_;
     render::Camera camera_;
     PageCanvas* to_ = nullptr;

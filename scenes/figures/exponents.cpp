@@ -26,17 +26,24 @@ std::string value_text(const sim::Exponents& e, std::size_t i) {
 
 Panel panel_of(const sim::Exponents& e, std::size_t shown, Lang lang) {
     Panel panel{.x = {.label = phrase(lang, "averaged over $t$ / s"), .tight = true},
-                .y = {.label = "$λ$ / s^{−1}", .with_zero = true},
+                .y = {.label = "$λ$ / s^{−1}"},
                 .rules = {{.at = 0}},
                 .name = "exponents"};
+    // The first averages, over less than a tenth of the duration, are of the start.
+    const auto begin = std::ranges::lower_bound(e.time, 0.1 * e.duration) - e.time.begin();
     for (std::size_t i = 0; i < shown; ++i) {
         if (!std::isfinite(e.lambda[i])) continue;
         const int look = static_cast<int>(i);
-        panel.series.push_back({.label = value_text(e, i), .x = e.time, .y = e.history[i], .look = look});
+        panel.series.push_back({.label = value_text(e, i),
+                                .x = {e.time.begin() + begin, e.time.end()},
+                                .y = {e.history[i].begin() + begin, e.history[i].end()},
+                                .look = look});
         if (!(e.error[i] > 0)) continue;
         const double low = e.lambda[i] - e.error[i], high = e.lambda[i] + e.error[i];
-        panel.bands.push_back(
-            {.x = {e.time.front(), e.time.back()}, .low = {low, low}, .high = {high, high}, .look = look});
+        panel.bands.push_back({.x = {e.time[static_cast<std::size_t>(begin)], e.time.back()},
+                               .low = {low, low},
+                               .high = {high, high},
+                               .look = look});
     }
     return panel;
 }

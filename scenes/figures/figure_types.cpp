@@ -30,7 +30,7 @@ const std::vector<FigureType>& table() {
 
 }  // namespace
 
-// Times below a tenth of a second are in milliseconds or less, as in films.
+// Times over less than a tenth of a second are in milliseconds or less.
 static void shorten_times(std::vector<Panel>& panels) {
     constexpr double kShort = 0.1;  // [s]
     render::Extent times;
@@ -42,7 +42,7 @@ static void shorten_times(std::vector<Panel>& panels) {
         for (const auto& end : {panel.x.from, panel.x.to})
             if (end) times.add({&*end, 1});
     }
-    if (!times.any || std::max(std::abs(times.low), std::abs(times.high)) >= kShort) return;
+    if (!times.any || times.high - times.low >= kShort) return;
     for (Panel& panel : panels) panel.x.short_numbers = panel.x.short_numbers || is_in_seconds(panel);
 }
 

@@ -43,7 +43,8 @@ struct FigureType {
     Figure (*draw)(const SweptPoints& points, const FigureOutput& how) = nullptr;
     // The keys of its output that only some figures have: "from", "to".
     std::vector<std::string_view> keys = {};
-    std::optional<Instant> ends = {};  // of the motion shown by default, if it has this event after the start
+    // The part of the motion shown without "from" and "to", as far as it has these events.
+    std::optional<Instant> begins = {}, ends = {};
 
     bool of_sweep() const { return draw != nullptr; }
     bool takes(std::string_view key) const { return std::ranges::find(keys, key) != keys.end(); }

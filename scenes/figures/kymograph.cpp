@@ -88,6 +88,7 @@ extern const FigureType kKymograph{
     .refusal = needs_bending,
     .maker = prepare_kymograph,
     .keys = {"from", "to"},
-    .ends = Instant{.kind = Instant::Kind::apex}};
+    .begins = Instant{.kind = Instant::Kind::collision},
+    .ends = Instant{.kind = Instant::Kind::liftoff}};
 
 }  // namespace beamcam::scenes

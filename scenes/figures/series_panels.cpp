@@ -28,6 +28,8 @@ bool has_values(const sim::Table& table) {  // in its last channel
     return std::ranges::any_of(table.values.back(), [](double v) { return std::isfinite(v); });
 }
 
+bool is_zero(const sim::Table& table) { return largest_magnitude(table.values.back()) == 0; }
+
 // One axis of a panel: its curves, and how they are written.
 struct Side {
     const std::vector<SeriesCurve>& curves;
@@ -89,7 +91,7 @@ class SeriesPanelMaker {
   private:
     bool has_sums() const { return !keys_.sums.empty(); }
     bool shows_some() const { return planned_.motions.size() < plan_.motions.size(); }  // not all motions
-    // A logarithmic axis shows the magnitude of the change of the energy balance.
+    // A logarithmic axis shows the largest change of the energy balance so far.
     bool is_closure() const {
         return keys_.logarithmic && keys_.channels.front().kind == sim::ChannelKind::energy_residual;
     }
@@ -143,14 +145,16 @@ class SeriesPanelMaker {
                                                    : measure_of(si, most, plan_.units);
         if (has_sums() && si == "J") return void(side.symbols = {"$E$"});
         for (const Channel& channel : side.channels)
-            side.symbols.push_back(
-                fmt::format(fmt::runtime(plan_.abscissa.is_frequency() || is_closure() ? "|{}|" : "{}"),
-                            render::print_symbol(channel)));
+            side.symbols.push_back(fmt::format(fmt::runtime(plan_.abscissa.is_frequency() ? "|{}|"
+                                                            : is_closure()                ? "max |{}|"
+                                                                                          : "{}"),
+                                               render::print_symbol(channel)));
     }
     sim::Table rows_of(const SeriesCurve& curve) const {
         sim::Table rows = plan_.rows(curve, results_);
+        double most = is_closure() ? rounding(curve) : 0;  // so far
         for (double& v : rows.values.back())
-            if (is_closure()) v = std::max(std::abs(v), rounding(curve));
+            if (is_closure()) v = most = std::max(std::abs(v), most);
         return rows;
     }
     // Below it the change of the energy balance is rounding, which differs between machines.
@@ -180,7 +184,7 @@ class SeriesPanelMaker {
     void add_sum(const Side& side, std::size_t i) {
         const SeriesSum& sum = *side.curves[i].sum;
         const std::vector<double>& values = side.rows[i].values.back();
-        if (sum.plus.size() > 1 && std::ranges::all_of(values, [](double v) { return v == 0; })) return;
+        if (sum.plus.size() > 1 && is_zero(side.rows[i])) return;
         constexpr int kBlack = 6;
         const bool total = !sum.minus.empty();
         Series curve{.label = phrase(plan_.lang, sum.label),
@@ -195,8 +199,9 @@ class SeriesPanelMaker {
     }
 
     // Paler where θ is not reproducible. Forces are solid: gaps of dashes would hide their short peaks. With two axes
-    // the curves of the right one are dashed, the others solid.
+    // all curves are, and those that are zero throughout are omitted beside others.
     void add_curve(const Side& side, std::size_t i) {
+        if (panel_.right && is_zero(side.rows[i]) && !std::ranges::all_of(side.rows, is_zero)) return;
         const SeriesMotion& motion = plan_.motions[side.curves[i].motion];
         const std::size_t shown = planned_.motions.size();
         const std::string& symbol = side.symbols[i / shown];
@@ -213,11 +218,9 @@ class SeriesPanelMaker {
                      .y = scaled(rows.values.back(), side.measure.factor),
                      .name = shown == 1 ? symbol : "",
                      .look = curves_,
-                     .solid = side.channels[i / shown].kind == sim::ChannelKind::contact_force,
+                     .solid = panel_.right || side.channels[i / shown].kind == sim::ChannelKind::contact_force,
                      .right = side.right,
                      .weight = kCurveWeight};
-        if (panel_.right) whole.solid = !side.right;
-        if (side.right) whole.dash = {5, 2};
         // Of curves that coincide all have the look of the first.
         for (const Series& other : whole_)
             if (coincide(other, whole)) whole.look = other.look;

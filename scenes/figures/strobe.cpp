@@ -1,4 +1,6 @@
 // The beam at several instants and the cam at both ends, in lines.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -61,40 +63,21 @@ void add_instant(const sim::Pose& pose, std::string instant, Sketch& to) {
                                     : VAlign::top});
 }
 
-// Of instants that are equally spaced: exact if a few decimals are enough.
-int decimals_of_instants(const std::vector<sim::Pose>& poses) {
-    const double step = poses[1].t - poses[0].t;
-    const int few = render::decimals_of(step);
-    for (int decimals = 0; decimals <= few + 3; ++decimals) {
-        const auto is_exact = [&](const sim::Pose& pose) {
-            const double unit = render::ten_to(decimals);
-            return std::abs(pose.t - std::round(pose.t * unit) / unit) < 1e-6 * step;
-        };
-        if (std::ranges::all_of(poses, is_exact)) return decimals;
-    }
-    return few + 1;
-}
-
-// The last one, the first, and those between that stand clear of the labels before.
+// The last one, and the first if it stands clear.
 void label_instants(const std::vector<sim::Pose>& poses, Sketch& to) {
     constexpr double kWidth = 0.25, kHeight = 0.07;  // of the largest label, in lengths of the beam
-    const int decimals = decimals_of_instants(poses);
-    const double length = norm(poses.front().centreline.back());
-    std::vector<const sim::Pose*> order{&poses.back()}, labelled;
-    for (std::size_t k = 0; k + 1 < poses.size(); ++k) order.push_back(&poses[k]);
-    for (const sim::Pose* pose : order) {
-        const auto is_near = [&](const sim::Pose* other) {
-            const Vec2 way = other->centreline.back() - pose->centreline.back();
-            return std::abs(way.x) < kWidth * length && std::abs(way.y) < kHeight * length;
-        };
-        if (std::ranges::any_of(labelled, is_near)) continue;
-        labelled.push_back(pose);
-        add_instant(*pose, render::fixed(pose->t, decimals) + " s", to);
-    }
+    const sim::Pose &first = poses.front(), &last = poses.back();
+    const double length = norm(first.centreline.back());
+    const Vec2 way = last.centreline.back() - first.centreline.back();
+    const int decimals = render::decimals_of(poses[1].t - first.t) + 1;
+    add_instant(last, render::fixed(last.t, decimals) + " s", to);
+    if (std::abs(way.x) >= kWidth * length || std::abs(way.y) >= kHeight * length)
+        add_instant(first, render::fixed(first.t, decimals) + " s", to);
 }
 
-// A length of 1, 2 or 5 times a power of ten, about a fifth of the beam's, below the drawing.
-void add_scale(const sim::Problem& problem, render::Bounds& extent, Sketch& to) {
+// Below the drawing, a length of 1, 2 or 5 times a power of ten, about a fifth of the beam's, and `step`, the time
+// between instants [s].
+void add_scale(const sim::Problem& problem, const std::string& step, render::Bounds& extent, Sketch& to) {
     const double length = render::round_down_125(problem.beam.length / 5);
     const double y = extent.y0 - 0.14 * problem.beam.length, tick = 0.012 * problem.beam.length;
     extent.add({extent.x0, y});
@@ -104,12 +87,13 @@ void add_scale(const sim::Problem& problem, render::Bounds& extent, Sketch& to) 
     to.add({.kind = Sketch::Kind::label,
             .points = {b},
             .color = Sketch::kInk,
-            .markup = render::quantity(length, "m"),
+            .markup = render::quantity(length, "m") + "\u2003" + step,
             .shift = {0.4, 0},
             .align = render::HAlign::left});
 }
 
-Panel strobe_panel(const std::vector<sim::Pose>& poses, const sim::Problem& problem, render::Bounds& extent) {
+Panel strobe_panel(const std::vector<sim::Pose>& poses, const Subject& subject, render::Bounds& extent) {
+    const sim::Problem& problem = subject.problem;
     Sketch sketch;
     const double hub = std::max(std::abs(problem.hub.radius), render::root_radius(problem));
     for (std::size_t k = 0; k < poses.size(); ++k) {
@@ -123,7 +107,8 @@ Panel strobe_panel(const std::vector<sim::Pose>& poses, const sim::Problem& prob
     sketch.dot({0, 0}, Sketch::kInk, 1.2);
     if (problem.cam) sketch.dot(problem.cam->centre);
     label_instants(poses, sketch);
-    add_scale(problem, extent, sketch);
+    const std::string step = render::quantity(poses[1].t - poses[0].t, "s");
+    add_scale(problem, phrase(subject.lang, fmt::format("every {}", step)), extent, sketch);
     return {.shapes = sketch.take()};
 }
 
@@ -131,7 +116,7 @@ FigureDrawing prepare_strobe(const Scene& scene, const FigureOutput& how, Motion
     const ShownPoses shown = request_poses(scene, how, kShownPoses, kPoseStations, requests);
     const auto draw = [=](const Subject& subject, const sim::Result& result) -> Figure {
         render::Bounds extent;
-        Panel panel = strobe_panel(result.poses[shown.poses], subject.problem, extent);
+        Panel panel = strobe_panel(result.poses[shown.poses], subject, extent);
         // The shapes with a margin and room for labels.
         const double aspect =
             std::clamp(0.1 + 0.85 * (extent.y1 - extent.y0) / std::max(extent.x1 - extent.x0, 1e-12), 0.3, 1.1);

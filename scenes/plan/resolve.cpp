@@ -113,6 +113,8 @@ FigureOutput with_times_of(FigureOutput how, const sim::Result& motion, double e
     std::optional<Instant>& to = how.series.to_event;
     if (to && to->number == 1 && !how.series.from_event && !find_instant(*to, motion)) to.reset();
     SeriesKeys series = with_times(std::move(how.series), motion);
+    if (const FigureType* type = figure_type(how.figure); usual && type->begins && !from_event && series.from == 0)
+        series.from = find_instant(*type->begins, motion).value_or(0);
     if (const auto end_of_type = usual ? find_instant(*usual, motion) : std::nullopt)
         if (*end_of_type > series.from) series.to = end_of_type;
     const double end = series.to.value_or(end_time);

@@ -81,6 +81,10 @@ TEST(FigureAxis, LogarithmicShowsDecadesAndRefusesWhatHasNoLogarithm) {
 TEST(FigureAxis, LogarithmicHasPlainNumbersWithinADecade) {
     EXPECT_THAT(labels(axis(0.33, 0.79, {.scale = Scale::logarithmic})), ::testing::IsSupersetOf({"0.4", "0.7"}));
     EXPECT_THAT(labels(axis(0.4, 4, {.scale = Scale::logarithmic})), ::testing::IsSupersetOf({"0.5", "1", "2"}));
+    EXPECT_THAT(labels(axis(0.08, 5, {.scale = Scale::logarithmic})),
+                ::testing::ElementsAre("0.1", "1", "0.2", "0.5", "2", "5"));
+    const AxisMap small({.scale = Scale::logarithmic}, {.any = true, .low = 1e-12, .high = 6e-11}, 3, "test");
+    EXPECT_THAT(labels(small), ::testing::SizeIs(4));
 }
 
 TEST(FigureAxis, HasThreeNumbersWhereFourHaveRoom) {

@@ -44,6 +44,18 @@ TEST(Plot, HasTheSamePlacesOnAPageAndInAFilm) {
     EXPECT_DOUBLE_EQ(printed.along_x(1), kBox.right());
 }
 
+TEST(Plot, HasTheZerosOfItsTwoAxesAtOneHeight) {
+    Panel panel{.right = Axis{}};
+    panel.series = {{.x = {0, 1}, .y = {-16, 4}}, {.x = {0, 1}, .y = {0, 300}, .right = true}};
+    const Fonts fonts;
+    Image image(300, 160);
+    Canvas canvas(image, fonts);
+    const PlotStyle page = style_of(*column_named("elsevier"));
+    Plot plot(panel, page, "test");
+    plot.place(canvas, kBox);
+    EXPECT_DOUBLE_EQ(plot.at(0, 0).y, plot.at(0, 0, true).y);
+}
+
 // The past ends between two rows at its instant; the future goes on to the next row.
 TEST(Plot, DrawsThePastToItsInstantAndTheFutureFainter) {
     const Panel panel = rising();

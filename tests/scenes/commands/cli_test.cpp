@@ -129,7 +129,6 @@ TEST(CommandLine, WrongUsageIsTwo) {
                                   "modes s.json --speed 5mm",
                                   "modes s.json --speed 1e300",
                                   "figure s.json -o a.pdf",
-                                  "figure s.json schematic",
                                   "figure s.json shematic -o a.pdf",
                                   "figure s.json schematic -o a.bmp",
                                   "figure s.json schematic -o a.pdf --column brill",

@@ -19,13 +19,13 @@ using testing::Folder;
 using ::testing::HasSubstr;
 using testing::shell;
 
-TEST(ExponentsFigure, ShowsZeroAndTheErrorsOfItsValues) {
+TEST(ExponentsFigure, ShowsTheErrorsOfItsValuesAndNotTheStart) {
     sim::Exponents e;
     e.lambda = {3.4412345, -8.21}, e.error = {0.0702, 1.3};
-    e.time = {1, 2}, e.history = {{3.5, 3.44}, {-8, -8.2}};
+    e.time = {0.1, 1, 2}, e.history = {{30, 3.5, 3.44}, {-80, -8, -8.2}}, e.duration = 2;
     const auto figure = exponents_figure(e, {});
     ASSERT_EQ(figure.panels.size(), 2u);  // the largest alone, and all
-    EXPECT_TRUE(figure.panels[1].y.with_zero);
+    EXPECT_EQ(figure.panels[1].series.at(1).y, (std::vector{-8, -8.2}));
     EXPECT_EQ(figure.panels[0].series.at(0).label, "$λ$_{1} = 3.441 ± 0.070 s^{−1}");
     EXPECT_EQ(figure.panels[1].series.at(1).label, "$λ$_{2} = −8.2 ± 1.3 s^{−1}");
     EXPECT_NEAR(figure.panels[1].bands.at(1).low.at(0), -8.21 - 1.3, 1e-12);
