@@ -173,9 +173,9 @@ void PointStore::begin(const PointHead& head) {
     const std::string text = text_of(head);
     end_ = text.size();
     if (ftruncate(file_.number(), 0) == 0 && file_.write_at(0, text)) return;
-    const IoError error = write_error(path_, errno);
+    const int error = errno;
     remove();
-    throw error;
+    throw write_error(path_, error);
 }
 
 void PointStore::add(const StoredPoint& point) {

@@ -52,7 +52,7 @@ std::string secret_of_user() {
     const fs::path folder = state_folder();
     if (folder.empty()) return {};
     const fs::path file = folder / "owner";
-    if (const std::string secret = read_secret(file); !secret.empty()) return secret;
+    if (std::string secret = read_secret(file); !secret.empty()) return secret;
     create_secret(file);
     return read_secret(file);
 }

@@ -36,7 +36,7 @@ std::string collision_counter(const Motion& motion, double t) {
     }
     const double over = end + sim::collision_gap(motion.problem);
     if (t > over) return {};
-    const std::string collision = fmt::format("collision {}", last.collision);
+    std::string collision = fmt::format("collision {}", last.collision);
     if (of == 1) return collision;
     // The collision may go on after the end of the motion.
     return fmt::format("{} · impact {}", collision, number) + (over <= motion.end ? fmt::format(" of {}", of) : "");

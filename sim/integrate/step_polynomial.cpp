@@ -1,7 +1,5 @@
 #include "sim/integrate/step_polynomial.hpp"
 
-#include <cmath>
-
 namespace beamcam::sim {
 
 StepPolynomial StepPolynomial::through(const Lanes& nodal) {
@@ -32,12 +30,6 @@ StepPowers<kNodes + 1> StepPolynomial::integral() const {
         p.c[0] += j % 2 ? -p.c[j + 1] : p.c[j + 1];
     }
     return p;
-}
-
-double StepPolynomial::bound() const {
-    double total = 0;
-    for (const double each : c) total += std::fabs(each);
-    return total;
 }
 
 StepPolynomial steady_motion(const Oscillator& oscillator, const Lanes& f, double h) {

@@ -25,7 +25,6 @@ struct StepPolynomial : StepPowers<kNodes> {
     static StepPolynomial of_derivatives(StepPolynomial f, const std::array<double, kNodes>& factors, double h);
     StepPolynomial derivative(double h) const;
     StepPowers<kNodes + 1> integral() const;  // ∫₀ˢ, for h = 1
-    double bound() const;                     // of its magnitude in the step
 };
 
 // The motion that follows the forcing per mass f, given at the nodes, without vibration. Not for two decays.
