@@ -12,6 +12,7 @@
 #include "scenes/commands/result_files.hpp"
 #include "scenes/figures/cam_drawing.hpp"
 #include "scenes/figures/figure_files.hpp"
+#include "scenes/motions/progress.hpp"
 #include "scenes/scene/files.hpp"
 #include "sim/cam/lever.hpp"
 #include "sim/studies/beam_jump.hpp"
@@ -45,12 +46,14 @@ std::string summary_text(const sim::Lever::Summary& s) {
 }
 
 // The speed at which the beam of the scene leaves the cam.
-sim::BeamJump jump_of_beam(const Scene& scene, const sim::Lever::Summary& summary) {
+sim::BeamJump jump_of_beam(const Scene& scene, const sim::Lever::Summary& summary, const Common& common) {
     const sim::Problem& p = scene.problem;
     if (is_prescribed(p.hub.drive)) throw UsageError("--beam: the drive prescribes the hub's angle; use a free hub");
     if (!summary.jump || !(summary.jump->speed > 0))
         throw UsageError("--beam: a straight rigid lever has no jump speed from which the search could begin");
-    const auto found = sim::beam_jump(p, summary.jump->speed);
+    Progress progress(progress_style(common));
+    const ProgressStage stage(progress, "jump speed of the beam", std::nullopt, "motions");
+    const auto found = sim::beam_jump(p, summary.jump->speed, [&](double motion) { return progress.reach(motion); });
     if (!found)
         throw UsageError(
             fmt::format("--beam: the beam follows the cam up to twice the lever's jump speed, {:.6g} rad/s",
@@ -104,7 +107,7 @@ int act(const CamArguments& args) {
     const sim::Lever lever(scene.problem);
     const sim::Lever::Summary summary = lever.summary();
     std::optional<sim::BeamJump> beam;
-    if (args.beam) beam = jump_of_beam(scene, summary);
+    if (args.beam) beam = jump_of_beam(scene, summary, args.common);
     print_result(args.common, output::cam_json(summary, beam), summary_text(summary) + (beam ? beam_text(*beam) : ""));
     return for_each_file(args.files, [&](const std::string& file) {
         write_outline(file, scene, lever, file_list);

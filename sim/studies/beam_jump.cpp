@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "sim/run/simulate.hpp"
-
 namespace beamcam::sim {
 namespace {
 
@@ -13,27 +11,32 @@ constexpr double kStep =
     1.02;  // from one speed of the search to the next: narrower intervals of jumping are passed over
 constexpr double kClose = 1e-5;  // of the speed
 
-bool leaves_cam(Problem problem, double speed) {
+bool leaves_cam(Problem problem, double speed, const Progress& progress) {
     problem.cam->speed = std::copysign(speed, problem.cam->speed);
     problem.initial = {};
     problem.initial.shape = InitialShape::resting;
     Request request;
     request.end_time = kTurns * cam_period(problem);
     request.extrema = {*channel_named("gap")};
-    return simulate(problem, request).extrema.front().max > kOpen * problem.beam.length;
+    return simulate(problem, request, progress).extrema.front().max > kOpen * problem.beam.length;
 }
 
 }  // namespace
 
-std::optional<BeamJump> beam_jump(const Problem& problem, double around) {
+std::optional<BeamJump> beam_jump(const Problem& problem, double around, const Progress& progress) {
+    int motions = 0;
+    const auto leaves = [&](double speed) {
+        ++motions;
+        return leaves_cam(problem, speed, [&](double) { return !progress || progress(motions); });
+    };
     BeamJump jump{0, 0.25 * around};
-    while (!leaves_cam(problem, jump.leaves)) {
+    while (!leaves(jump.leaves)) {
         if (jump.leaves > 2 * around) return std::nullopt;
         jump = {jump.leaves, kStep * jump.leaves};
     }
     while (jump.follows > 0 && jump.leaves - jump.follows > kClose * jump.leaves) {
         const double middle = 0.5 * (jump.follows + jump.leaves);
-        (leaves_cam(problem, middle) ? jump.leaves : jump.follows) = middle;
+        (leaves(middle) ? jump.leaves : jump.follows) = middle;
     }
     return jump;
 }

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "sim/problem/problem.hpp"
+#include "sim/run/simulate.hpp"
 
 namespace beamcam::sim {
 
@@ -14,7 +14,8 @@ struct BeamJump {
 };
 
 // Searches upwards from a quarter of the speed `around` up to twice it; nothing: the beam follows the cam up to there.
-// The problem has a turning cam and a free hub. Throws SolverError where a motion cannot be integrated.
-std::optional<BeamJump> beam_jump(const Problem& problem, double around);
+// The problem has a turning cam and a free hub. `progress` receives the number of the motion. Throws SolverError where
+// a motion cannot be integrated, Interrupted.
+std::optional<BeamJump> beam_jump(const Problem& problem, double around, const Progress& progress = {});
 
 }  // namespace beamcam::sim
