@@ -159,7 +159,7 @@ class CurveTable {
             }
         }
         if (!any) return "";
-        const std::string x = to_plain(figure.panels.front().x.label);
+        std::string x = to_plain(figure.panels.front().x.label);
         if (same_x && ascending) return x;
         return timed ? kTime : "";
     }

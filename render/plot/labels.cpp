@@ -48,7 +48,7 @@ std::string lengths_text(std::initializer_list<double> lengths) {
 
 // Length and section; a rectangular beam is a product of three lengths.
 std::string size_piece(const sim::Beam& beam) {
-    const std::string length = equation("L", quantity(beam.length, "m"));
+    std::string length = equation("L", quantity(beam.length, "m"));
     if (!beam.section) return length;
     if (const auto* s = std::get_if<sim::Rectangle>(&*beam.section))
         return lengths_text({beam.length, s->width, s->height});

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace beamcam::render {
@@ -261,6 +262,6 @@ std::string_view translated(Lang lang, std::string_view english) {
     return found == std::end(kPhrases) ? english : found->chinese;
 }
 
-std::string in(Lang lang, std::string text) { return lang == Lang::en ? text : in_chinese(text); }
+std::string in(Lang lang, std::string text) { return lang == Lang::en ? std::move(text) : in_chinese(text); }
 
 }  // namespace beamcam::render

@@ -14,6 +14,7 @@
 #include <memory>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "sim/base/named.hpp"
@@ -24,7 +25,9 @@ namespace beamcam::scenes {
 // here: to describe all keys takes as long as the program's start.
 class HelpFormatter final : public CLI::Formatter {
   public:
-    void explain(const CLI::Option* option, std::function<std::string()> meaning) { meanings_[option] = meaning; }
+    void explain(const CLI::Option* option, std::function<std::string()> meaning) {
+        meanings_[option] = std::move(meaning);
+    }
     std::string make_option_desc(const CLI::Option* option) const override;
 
   private:

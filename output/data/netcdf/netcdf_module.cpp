@@ -1,5 +1,6 @@
 // The module: writes sweeps as NetCDF-4. https://docs.unidata.ucar.edu/netcdf-c, https://cfconventions.org
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <hdf5.h>
 #include <netcdf.h>
 #include <stdlib.h>
