@@ -49,8 +49,6 @@ class Canvas : public Painter {
     int height() const { return height_; }  // [px]
     bool is_vector() const { return is_vector_; }
 
-    // The colour of a halo of all texts, for pictures without paper; null: texts have the halos of their styles.
-    std::optional<Color> halo_of_all = {};
     std::vector<Box>* record = nullptr;  // collects the ink boxes of drawn texts
 
   private:

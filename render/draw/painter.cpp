@@ -111,6 +111,7 @@ void Painter::arrow(Vec2 from, Vec2 to, const Pen& pen, const ArrowHead& head) {
     };
     if (length > tip) line(from, to - u * (0.8 * tip), {pen.color, pen.width, pen.dash, Cap::butt});
     add_head();
+    if (halo_of_all) stroke({*halo_of_all, pen.width + 1}), add_head();
     fill(pen.color);
 }
 
@@ -144,12 +145,24 @@ void Painter::fill_between(std::span<const Vec2> outer, std::span<const Vec2> in
     cairo_fill(cr_);
 }
 
+void Painter::without_halo(const std::function<void()>& draw) {
+    const std::optional<Color> before = std::exchange(halo_of_all, std::nullopt);
+    draw();
+    halo_of_all = before;
+}
+
 void Painter::stroke(const Pen& pen) {
-    mark_path(pen.width / 2);  // joins are round
-    set_source(pen.color);
-    cairo_set_line_width(cr_, pen.width);
+    const double halo = halo_of_all ? 2.5 * pen.width + 1 : pen.width;
+    mark_path(halo / 2);  // joins are round
     cairo_set_line_cap(cr_, pen.cap == Cap::round ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
     cairo_set_dash(cr_, pen.dash.data(), static_cast<int>(pen.dash.size()), 0);
+    if (halo_of_all && halo_of_all->faded(0) != pen.color.faded(0)) {
+        set_source(halo_of_all->faded(pen.color.a));
+        cairo_set_line_width(cr_, halo);
+        cairo_stroke_preserve(cr_);
+    }
+    set_source(pen.color);
+    cairo_set_line_width(cr_, pen.width);
     cairo_stroke(cr_);
 }
 void Painter::line(Vec2 from, Vec2 to, const Pen& pen) {
@@ -172,6 +185,21 @@ void Painter::clip(const Box& b, const std::function<void()>& draw) {
     draw();
     limit_ = before;
     cairo_restore(cr_);
+}
+
+void Painter::layer(double opacity, const std::function<void()>& draw) {
+    cairo_push_group(cr_);
+    draw();
+    cairo_pop_group_to_source(cr_);
+    cairo_paint_with_alpha(cr_, opacity);
+    set_source({});
+}
+
+void Painter::erase(const Box& box, double share) {
+    cairo_set_operator(cr_, CAIRO_OPERATOR_DEST_OUT);
+    rectangle(box);
+    fill(rgb(0).faded(share));
+    cairo_set_operator(cr_, CAIRO_OPERATOR_OVER);
 }
 
 void Painter::pixels(const Image& image, const Box& into) {

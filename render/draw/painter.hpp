@@ -66,8 +66,16 @@ class Painter {
     virtual void curve(std::span<const Vec2> points, const Pen& pen);
     // Clips everything that `draw` draws to the box.
     void clip(const Box& box, const std::function<void()>& draw);
+    // Draws on a layer of its own, of which parts can be erased, and blends it.
+    void layer(double opacity, const std::function<void()>& draw);
+    void erase(const Box& box, double share);
     // Draws the image into the box, each pixel a rectangle.
     void pixels(const Image& image, const Box& into);
+
+    // The colour of a halo of all texts and strokes, for pictures without paper; null: texts have those of their
+    // styles.
+    std::optional<Color> halo_of_all = {};
+    void without_halo(const std::function<void()>& draw);
 
     // If set, collects the painted tiles (a superset of the changed pixels).
     DirtyTiles* touched = nullptr;

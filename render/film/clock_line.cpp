@@ -11,10 +11,8 @@ constexpr double kSmaller = 0.7;                        // size of letters for w
 constexpr double kAfterClock = 36, kBetweenPills = 14;  // [design px]
 constexpr double kPadding = 1.7;                        // of a pill, in sizes of its letters
 
-// In the unit of the film's largest force.
 std::string peak_text(const FilmContext& context, double force) {
-    return context.look.translate("peak") + "\u00A0$F$\u2009=\u2009" +
-           reading(force, prefix_for(context.scales.largest_force), "N");
+    return context.look.translate("peak") + "\u00A0$F$\u2009=\u2009" + reading(force, context.scales.force_unit, "N");
 }
 
 }  // namespace
@@ -37,8 +35,7 @@ ClockLine::ClockLine(const FilmContext& context) : context_(context) {
         if (!context.motion(m).impacts.empty() && context.scales.largest_force > 0 &&
             context.motion(m).problem.contact.model == sim::ContactModel::compliant) {
             if (!peaks_) peaks_.emplace(context);
-            pills_.push_back({Pill::Kind::peak,
-                              peak_text(context, 0.888 * prefix_for(context.scales.largest_force).factor),
+            pills_.push_back({Pill::Kind::peak, peak_text(context, 0.888 * context.scales.force_unit.factor),
                               context.members() > 1 ? context.member_color(m) : context.look.palette.contact, m});
         }
     steady_ = steady_speed(setup.speeds);
@@ -61,7 +58,7 @@ bool ClockLine::states_exaggeration() const {
 
 double ClockLine::measure(const Canvas& canvas) {
     const double u = context_.look.unit, last = context_.clock.at(context_.frames() - 1);
-    clock_width_ = canvas.measure(clock_text(context_.clock.format, last, last), clock_style()).w;
+    clock_width_ = canvas.measure(clock_text(context_.clock.format, last), clock_style()).w;
     double right = context_.places.clock->x;
     if (context_.setup->view.show.clock) right += clock_width_;
     first_ = right + (context_.setup->view.show.clock ? kAfterClock * u : 0);
@@ -104,10 +101,10 @@ std::string ClockLine::words(const Pill& pill, int frame) const {
 void ClockLine::draw(Canvas& canvas, int frame) const {
     if (!context_.places.clock) return;
     const Box& b = *context_.places.clock;
-    const double u = context_.look.unit, last = context_.clock.at(context_.frames() - 1);
+    const double u = context_.look.unit;
     if (context_.setup->view.show.clock && clock_width_ <= b.w)
-        canvas.text({b.x, b.y + 24 * u + 0.35 * size_},
-                    clock_text(context_.clock.format, context_.clock.at(frame), last), clock_style());
+        canvas.text({b.x, b.y + 24 * u + 0.35 * size_}, clock_text(context_.clock.format, context_.clock.at(frame)),
+                    clock_style());
     double x = first_;
     for (const Pill& pill : pills_) {
         const std::string text = words(pill, frame);

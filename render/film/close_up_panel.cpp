@@ -63,8 +63,10 @@ class CloseUpPanel final : public FilmPanel {
         if (!motion().problem.cam || !pose.nearest) return;
         const sim::Nearest& near = *pose.nearest;
         canvas.clip(plot_, [&] {
-            draw_cam(canvas, pose);
-            draw_beam(canvas, pose);
+            canvas.without_halo([&] {
+                draw_cam(canvas, pose);
+                draw_beam(canvas, pose);
+            });
         });
         CloseUpReadings{context_, motion(), box_, plot_, unit_}.draw(canvas, pose, at(0, near.gap).y);
     }
@@ -218,11 +220,11 @@ class CloseUpPanel final : public FilmPanel {
         const Palette& p = context_.look.palette;
         const double u = context_.look.unit, longest = 0.55 * plot_.h;
         const Vec2 foot = at(0, near.gap / 2);
-        // Both forces have the same scale; those too short for an arrow are shown only as numbers.
+        // Both forces have the same scale; a short arrow has a head of half its length.
         const auto arrow = [&](double force, Vec2 way) {
-            const double length = longest * std::min(1.0, force / context_.scales.force);
+            const double length = longest * std::min(1.0, force / context_.scales.largest_force);
             if (length > 5 * u)
-                canvas.arrow(foot, foot + way * length, {p.contact, 4 * u}, {std::min(16 * u, 0.7 * length)});
+                canvas.arrow(foot, foot + way * length, {p.contact, 4 * u}, {std::min(16 * u, 0.5 * length)});
         };
         canvas.circle(foot, 3.5 * u);
         canvas.fill(p.contact);

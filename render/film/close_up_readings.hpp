@@ -1,4 +1,4 @@
-// The numbers of a close-up: the penetration or the gap, and which collision and impact it is.
+// The numbers of a close-up: the penetration or the gap; and whether the faces stick or slide.
 #pragma once
 
 #include "render/film/panel.hpp"
@@ -14,12 +14,8 @@ struct CloseUpReadings {
     Box box, plot;       // of the panel, and of its plot [px]
     const Prefix& unit;  // of heights
 
-    // `face`: the height of the beam's face at the contact [px].
+    // `face`: the height of the beam's face at the contact [px]. A halo of the word hides the line of this face.
     void draw(Canvas& canvas, const sim::Pose& pose, double face) const;
-
-  private:
-    // In the upper right corner, with a halo that hides the line of the beam's face.
-    void draw_count(Canvas& canvas, const sim::Pose& pose, double face) const;
 };
 
 // Of its plot.

@@ -10,7 +10,7 @@
 namespace beamcam::render {
 
 std::array<std::string, 3> trace_marks(const FilmContext& context) {
-    const Prefix prefix = prefix_for(context.scales.largest_force);
+    const Prefix prefix = context.scales.force_unit;
     return {"0", quantity(context.scales.force / 4, prefix, "N"), quantity(context.scales.force, prefix, "N")};
 }
 
@@ -46,7 +46,8 @@ void draw_color_bars(Canvas& canvas, const FilmContext& context) {
     }
     if (context.scales.moment > 0) {
         const std::string top = quantity(context.scales.moment, "N\u2009m");
-        bar(right, moment_title, [&](double s) { return moment_color(palette, 2 * s - 1); }, {"−" + top, "0", top});
+        bar(right, moment_title, [&](double s) { return moment_color(palette, 2 * s - 1); },
+            {"−" + top.substr(0, top.find("\u00A0")), "0", top});
     }
 }
 

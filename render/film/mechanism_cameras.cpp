@@ -22,13 +22,19 @@ MechanismCameras::MechanismCameras(const MechanismView& home) : home_(home) {
 void MechanismCameras::follow(const std::vector<Followed>& parts) {
     const FilmSetup& setup = *home_.context.setup;
     const Shot& first = setup.view.shot;
-    if (home_.whole || (first.zoom == 1 && first.follow == Anchor{} && setup.moves.empty())) return;
+    if (first.zoom == 1 && first.follow == Anchor{} && setup.moves.empty()) return;
     shots_ = camera_frames(first, setup.moves, home_.look.camera, home_.box, parts, setup.fps);
 }
 
 bool MechanismCameras::move_at(int frame) const {
     const auto now = static_cast<std::size_t>(frame);
-    return near() && !(shots_[now] == shots_[now - 1]);
+    return moves() && !(shots_[now] == shots_[now - 1]);
+}
+
+double MechanismCameras::presence(int frame) const {
+    constexpr double kWhole = 1.25;  // zoom from which it is there
+    if (!home_.whole || !moves()) return 1;
+    return std::clamp((shots_[static_cast<std::size_t>(frame)].zoom - 1) / (kWhole - 1), 0.0, 1.0);
 }
 
 MechanismView MechanismCameras::view(int frame) const {

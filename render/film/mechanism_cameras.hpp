@@ -16,8 +16,11 @@ class MechanismCameras {
     // `parts`: of every frame.
     void follow(const std::vector<Followed>& parts);
 
-    bool near() const { return !shots_.empty(); }  // at some frame the view is not the one that shows everything
-    bool move_at(int frame) const;                 // since the previous frame
+    bool near() const { return !home_.whole && moves(); }  // at some frame the view does not show everything
+    bool moves() const { return !shots_.empty(); }         // the view of a mechanism, which an overview accompanies
+    // An overview fades in while the mechanism's view comes near: 0 to 1.
+    double presence(int frame) const;
+    bool move_at(int frame) const;  // since the previous frame
     MechanismView view(int frame) const;
     // Of the solid view; none in flat and lit films.
     std::optional<Projection> perspective(const MechanismView& at, int frame) const;

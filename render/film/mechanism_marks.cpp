@@ -54,7 +54,7 @@ void draw_base_line(const MechanismScene& s) {
 
 static bool is_flat(const MechanismScene& s) { return s.at.context.setup->view.style == Style::flat; }
 
-static Color ink_on_disc(const MechanismScene& s) {
+Color ink_on_disc(const MechanismScene& s) {
     if (!is_flat(s)) return rgb(0xF4F6F9);
     return s.at.context.setup->view.theme == Theme::dark ? s.at.palette.paper : s.at.palette.steel_edge;
 }

@@ -12,6 +12,7 @@
 namespace beamcam::render {
 
 void draw_base_line(const MechanismScene& s);
+Color ink_on_disc(const MechanismScene& s);
 void draw_disc_marks(const MechanismScene& s, const Trace& trace);
 void draw_beam_trace(const MechanismScene& s, const Trace& trace);
 

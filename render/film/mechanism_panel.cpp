@@ -76,7 +76,7 @@ int MechanismPanel::empty_frames() const {
 // ---- the background --------------------------------------------------------------------------
 
 void MechanismPanel::draw_background(Canvas& canvas) const {
-    if (cameras_.near()) return;
+    if (cameras_.moves()) return;
     draw_still(canvas, at_);
     legend_.draw(canvas, at_);
 }
@@ -86,7 +86,7 @@ void MechanismPanel::draw_still(Canvas& canvas, const MechanismView& at) const {
     const Vec2 o = at.px({0, 0});
     canvas.line({at.box.x, o.y}, {at.box.right(), o.y}, horizontal_pen(at));
     if (at.context.setup->view.style == Style::flat)
-        draw_support(canvas, o, at.hub(), at.marks * at.zoom(), at.marks, at.palette);
+        canvas.without_halo([&] { draw_support(canvas, o, at.hub(), at.marks * at.zoom(), at.marks, at.palette); });
 }
 
 // ---- moving parts ----------------------------------------------------------------------------
@@ -94,7 +94,6 @@ void MechanismPanel::draw_still(Canvas& canvas, const MechanismView& at) const {
 // What a near camera cuts off fades out towards the edges of its panel but the lower one, the more the nearer it is.
 static void fade_edges(Canvas& canvas, const MechanismView& at) {
     constexpr int kSteps = 24;
-    if (at.context.setup->view.transparent) return;
     const double step = std::round(at.fade() / kSteps);
     if (step < 1) return;
     const Box& b = at.box;
@@ -102,20 +101,23 @@ static void fade_edges(Canvas& canvas, const MechanismView& at) {
         const double inner = k * step;
         for (const Box& strip : {Box{b.x + inner, b.y, step, b.h}, Box{b.right() - inner - step, b.y, step, b.h},
                                  Box{b.x, b.y + inner, b.w, step}}) {
-            canvas.rectangle(strip);
-            canvas.fill(at.palette.paper.faded(1 - (k + 0.5) / kSteps));
+            canvas.erase(strip, 1 - (k + 0.5) / kSteps);
         }
     }
 }
 
 void MechanismPanel::draw(Canvas& canvas, int frame, Style style, State* state) const {
     auto& threads = *static_cast<ThreadState*>(state);
-    if (!cameras_.near()) return draw_moving(canvas, at_, frame, style, threads);
+    if (!cameras_.moves()) return draw_moving(canvas, at_, frame, style, threads);
+    const double presence = cameras_.presence(frame);
+    if (presence == 0) return;
     const MechanismView at = cameras_.view(frame);
     canvas.clip(at.box, [&] {
-        draw_still(canvas, at);
-        draw_moving(canvas, at, frame, style, threads);
-        fade_edges(canvas, at);
+        canvas.layer(presence, [&] {
+            draw_still(canvas, at);
+            draw_moving(canvas, at, frame, style, threads);
+            fade_edges(canvas, at);
+        });
         legend_.draw(canvas, at);
     });
 }
@@ -133,17 +135,16 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
     } else {
         draw_base_line(s);
         draw_angle(s);
-        draw_cam_speed(s);
     }
     tip_path_.draw_trail(s);
-    draw_bodies(s, style, threads);
-    draw_beam_trace(s, threads.trace);
+    canvas.without_halo([&] {
+        draw_bodies(s, style, threads);
+        draw_beam_trace(s, threads.trace);
+    });
     if (at.ghosts) draw_ghost_outlines(s);
     if (at.member == 0) draw_measured_beams(s);
-    if (s.view) {  // in the plane of the front of the beam: the mount must not hide them
-        draw_angle(s);
-        draw_cam_speed(s);
-    }
+    if (s.view) draw_angle(s);  // in the plane of the front of the beam: the mount must not hide it
+    draw_cam_speed(s);
     rings_.draw(s);
     draw_force(s);
 }

@@ -246,10 +246,16 @@ void FilmContext::choose_scales() {
     }
     if (!std::isfinite(scales.exaggeration)) scales.exaggeration = 1;
     scales.arrow_force = force;
+    double smallest = std::numeric_limits<double>::infinity();
     for (int m = 0; m < members(); ++m) {
-        for (const TraceSample& s : samples[static_cast<std::size_t>(m)]) force = std::max(force, s.force);
-        for (const sim::Impact& i : motion(m).impacts) force = std::max(force, i.force_peak.value_or(0));
+        double own = 0;
+        for (const TraceSample& s : samples[static_cast<std::size_t>(m)]) own = std::max(own, s.force);
+        for (const sim::Impact& i : motion(m).impacts) own = std::max(own, i.force_peak.value_or(0));
+        force = std::max(force, own);
+        if (own > 0) smallest = std::min(smallest, own);
     }
+    scales.force_unit = prefix_for(std::min(smallest, force));
+    if (force >= 1e4 * scales.force_unit.factor) scales.force_unit = prefix_for(force);
     if (moment > 0) scales.moment = round_up_125(moment);
     scales.largest_force = force;
     if (force > 0) scales.force = round_up_125(force);

@@ -31,10 +31,12 @@ struct FilmClock {
 struct FilmScales {
     double exaggeration = 1;   // of deflection
     double largest_force = 0;  // of the film [N]
-    double force = 0;          // end of the colour scale: the largest force, rounded up; 0: no force [N]
-    double arrow_force = 0;    // largest force of all frames, that of the longest arrow [N]
-    double moment = 0;         // end of the colour scale; 0: no colouring [N m]
-    bool turns = false;        // θ is in turns instead of degrees, because it exceeds two
+    Prefix force_unit{"",
+                      1};    // of all forces: suits the smallest of the motions' largest ones, if all have four digits
+    double force = 0;        // end of the colour scale: the largest force, rounded up; 0: no force [N]
+    double arrow_force = 0;  // largest force of all frames, that of the longest arrow [N]
+    double moment = 0;       // end of the colour scale; 0: no colouring [N m]
+    bool turns = false;      // θ is in turns instead of degrees, because it exceeds two
 };
 
 // Colours, sizes and language of a film.
@@ -85,9 +87,9 @@ struct FilmContext {
                                 : std::vector<double>{};
     }
     bool names_in_panels() const;  // the names of compared motions are beside their mechanisms
-    // Far from the colours of motions, and bright on dark paper.
+    // The colours after those of the motions, as in figures.
     Color data_color(std::size_t k) const {
-        return series_color(look.palette, (look.palette.paper.g < 0.5 ? 5 : 7) - k % 3);
+        return series_color(look.palette, static_cast<std::size_t>(members()) + k);
     }
     // Hub angle in data set k at time t, by linear interpolation; NaN where it has none [rad].
     double measured_angle(std::size_t k, double t) const;

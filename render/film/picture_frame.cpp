@@ -72,7 +72,7 @@ PictureFrame picture_frame(int width, int height, const Shown& shown) {
         out.clock->w = out.scales->x - 30 * u - out.clock->x;
     }
     if (has_title || has_parameters) f.top += 0.8 * out.letters.words;
-    if (has_clock) f.bottom -= 18 * u;
+    if (has_clock) f.bottom -= 1.3 * out.letters.words;
     if (shown.captions && w >= 230 * u && h >= 190 * u) {
         out.captions = Box{margin, f.bottom - kCaptionBand * u, w - 2 * margin, kCaptionBand * u};
         f.bottom -= (kCaptionBand + 10) * u;

@@ -17,10 +17,9 @@ namespace {
 using sim::Channel;
 using sim::ChannelKind;
 
-constexpr double kPaleShare = 0.5;     // of a curve's colour where the motion is not reproducible
-constexpr double kSingleDot = 0.02;    // of the panel's time: dots within it are one dot
-constexpr double kRounding = 1e-15;    // of lengths, relative to the beam's: a few units in the last place
-constexpr double kSingleShare = 0.45;  // of the colour of the past that a single dot of the future has
+constexpr double kPaleShare = 0.5;   // of a curve's colour where the motion is not reproducible
+constexpr double kRounding = 1e-15;  // of lengths, relative to the beam's: a few units in the last place
+constexpr double kDotShare = 0.45;   // of the colour of the past that a dot of the future has
 
 std::string symbol_of(Channel channel) {
     const sim::ChannelLabel& label = sim::row(channel.kind).label;
@@ -110,31 +109,16 @@ Color place_color(const FilmContext& context, int member) {
     return context.members() > 1 ? context.member_color(member) : context.look.palette.contact;
 }
 
-// Single dots are too small to be seen in the pale colour of the future: if the motion's dots, from `first` on in the
-// order of time, nowhere form a line, they get a stronger one.
-void strengthen_single(const FilmContext& context, int member, ChartContent& c, std::size_t first) {
-    const std::span dots = std::span(c.panel.dots).subspan(first);
-    const double gap = kSingleDot * (c.time().high - c.time().low);
-    for (std::size_t begin = 0, i = 1; i < dots.size(); ++i) {
-        if (dots[i].x - dots[i - 1].x >= gap) begin = i;
-        if (dots[i].x - dots[begin].x > gap) return;
-    }
-    const Color strong = context.look.palette.tint(place_color(context, member), kSingleShare);
-    for (figure::Dot& dot : dots) dot.faint = strong;
-}
-
 // The places of impulsive impacts, which last no time and have no force that could color them.
 void add_impulses(const FilmContext& context, int member, const Range& shown, ChartContent& c, Extent& places) {
     if (context.motion(member).problem.contact.model != sim::ContactModel::restitution) return;
     const Palette& p = context.look.palette;
     const Color color = place_color(context, member);
-    const std::size_t first = c.panel.dots.size();
     for (const sim::Impact& impact : context.motion(member).impacts) {
         if (impact.t_start < c.time().low || impact.t_start > c.time().high) continue;
         if (impact.t_start >= shown.low && impact.t_start <= shown.high) places.add({&impact.x, 1});
-        c.panel.dots.push_back({impact.t_start, impact.x, color, p.tint(color, 0.25)});
+        c.panel.dots.push_back({impact.t_start, impact.x, color, p.tint(color, kDotShare)});
     }
-    strengthen_single(context, member, c, first);
 }
 
 // The places of contact as dots; returns the range of those that are shown.
@@ -142,17 +126,14 @@ Range add_places(const FilmContext& context, const Range& shown, ChartContent& c
     Extent places;
     const Palette& p = context.look.palette;
     for (int m = 0; m < context.members(); ++m) {
-        const std::size_t first = c.panel.dots.size();
         for (const TraceSample& s : context.samples[static_cast<std::size_t>(m)]) {
             if (s.t >= shown.low && s.t <= shown.high) places.add({&s.x, 1});
             if (s.t < c.time().low || s.t > c.time().high) continue;
             Color color = context.members() > 1 ? context.member_color(m)
                                                 : force_color(p, std::sqrt(s.force / context.scales.force));
-            const Color faint = context.members() > 1 ? p.tint(color, 0.25) : p.tint(p.contact_faint, 0.9);
             if (!context.motion(m).is_reliable(s.t)) color = p.tint(color, kPaleShare);
-            c.panel.dots.push_back({s.t, s.x, color, faint});
+            c.panel.dots.push_back({s.t, s.x, color, p.tint(place_color(context, m), kDotShare)});
         }
-        strengthen_single(context, m, c, first);
     }
     for (int m = 0; m < context.members(); ++m) add_impulses(context, m, shown, c, places);
     const double length = context.setup->problem.beam.length;
@@ -216,11 +197,14 @@ static std::string add_sticking(const FilmContext& context, const PanelSpec& spe
         spec.channels.front().kind != ChannelKind::friction_force)
         return {};
     const Palette& p = context.look.palette;
+    std::vector<figure::Span>& spans = c.panel.spans;
     for (std::size_t i = 0; i < t->size(); ++i) {
-        if (!sticks(context.setup->problem, (*force)[i], (*friction)[i])) continue;
-        if (i == 0 || c.panel.spans.empty() || c.panel.spans.back().to != (*t)[i - 1])
-            c.panel.spans.push_back({(*t)[i], (*t)[i], context.look.translate("sticks"), p.motion.faded(0.13)});
-        c.panel.spans.back().to = (*t)[i];
+        if (!((*force)[i] > 0)) continue;
+        const bool holds = sticks(context.setup->problem, (*force)[i], (*friction)[i]);
+        const std::string name = context.look.translate(holds ? "sticks" : "slides");
+        if (i == 0 || spans.empty() || spans.back().to != (*t)[i - 1] || spans.back().label != name)
+            spans.push_back({(*t)[i], (*t)[i], name, p.motion.faded(holds ? 0.13 : 0)});
+        spans.back().to = (*t)[i];
     }
     std::vector<double> limits{law->coefficient};
     if (law->static_coefficient && *law->static_coefficient != law->coefficient)
@@ -318,8 +302,10 @@ ChartContent strip_content(const FilmContext& context, const PanelSpec& spec) {
     if (of_contact && c.panel.dots.empty() && std::ranges::none_of(c.panel.series, has_values))
         c.instead = context.look.translate(c.panel.events.empty() ? "no contact" : "impulses only"), unit.clear(),
         values = {0, 1};
+    if (is_force(first) && !unit.empty()) unit = context.scales.force_unit.symbol + unit;
     c.set_values(values, symbols, unit);
-    if (is_force(first)) c.panel.y.round_ends = false;  // rows and spikes need the height
+    if (is_force(first)) c.panel.y.unit = context.scales.force_unit.factor;
+    if (is_force(first)) c.panel.y.round_ends = c.rows == 1;  // rows need the height
     return c;
 }
 

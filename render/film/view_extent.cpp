@@ -1,6 +1,7 @@
 #include "render/film/view_extent.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "render/film/panel.hpp"
 #include "render/mechanism/cam_outline.hpp"
@@ -21,6 +22,8 @@ bool is_small(const Box& box, double u) { return box.w < 420 * u || box.h < 300 
 
 bool has_names(const Box& box, double u) { return box.w >= 110 * u; }
 
+double least_arc(double hub, double marks) { return hub + 22 * marks; }
+
 double force_arrow_length(double share, bool small, double u) { return (small ? 60 : 150) * u * share; }
 
 double force_label_distance(double length, double depth, double u) { return std::max(length, depth + 10 * u) + 18 * u; }
@@ -37,7 +40,8 @@ Bounds ViewExtent::shown(double scale, double u, bool small) const {
         }
         const double hub = scale > 0 ? hub_radius(*p, {scale, {}}, u) : 0;  // [px]
         const double own = mark_unit(*p, {scale, {}}, u);
-        all.add({0, 0}, std::max(hub * pixel, p->hub.radius) + 12 * own * pixel);
+        const double around = turned && !small ? least_arc(hub, own) + 40 * u - hub : 12 * own;
+        all.add({0, 0}, std::max(hub * pixel, p->hub.radius) + around * pixel);
         if (scale > 0) all.add({0, -floor_depth(*p, {scale, {}}, u) * pixel});
         marks = std::max(marks, own);
     }
@@ -76,6 +80,7 @@ ViewExtent view_extent_of(const FilmContext& context, double least_depth) {
             std::vector<Vec2>& strip = extent.strips.emplace_back();
             for (std::size_t i = 0; i < beam.line.size(); i += (i + 5 < beam.line.size() ? 4 : 1))
                 for (Vec2 p : {beam.face(i), beam.back(i)}) extent.beams.add(p), strip.push_back(p);
+            extent.turned = extent.turned || std::abs(std::fmod(pose.theta, sim::kFullTurn)) > sim::kFullTurn / 4;
             if ((m == 0 || !ghosts) && shows_force(pose, beam))
                 extent.arrows.push_back({beam.contact->on_disc, beam.contact->normal,
                                          std::min(1.0, pose.nearest->force / context.scales.arrow_force), depth});

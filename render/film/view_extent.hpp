@@ -24,6 +24,7 @@ struct ViewExtent {
     Bounds beams;                               // of the drawn beams [m]
     std::vector<const sim::Problem*> problems;  // with the visible discs, hubs and supports; none: a square of 1 m
     std::vector<ForceArrow> arrows;
+    bool turned = false;                    // some beam points to the left, and the arc of θ goes around the hub
     std::vector<std::vector<Vec2>> strips;  // the beams: face, back, face, back, … from the root on [m]
 
     // The camera with the largest scale that shows everything, centred in `box` [px] with a margin. `unit`:
@@ -40,6 +41,8 @@ bool shows_force(const sim::Pose& pose, const DrawnBeam& beam);
 bool is_small(const Box& box, double unit);
 // … or large enough for the names of motions.
 bool has_names(const Box& box, double unit);
+// Smallest radius of the arc of θ around a hub of this radius [px]. `marks`: mark_unit.
+double least_arc(double hub, double marks);
 // Length of the arrow of a force with this fraction of the film's largest [px]. `marks`: mark_unit.
 double force_arrow_length(double share, bool small, double marks);
 // Distance of the letter of a force from the contact, clear of the arrow and of a beam of this depth [px].

@@ -25,8 +25,8 @@ Materials materials(const Palette& palette) {
             .bracket = rgb(dark ? 0x4A5361 : 0x8C97A6)};
 }
 
-constexpr double kClampDepth = 0.6, kBracketFront = -0.75;  // as the depths of the header
-constexpr double kShadow = 0.14, kFloor = 0.05;             // opacities
+constexpr double kClampDepth = 0.6, kBracketFront = -0.75;       // as the depths of the header
+constexpr double kShadow = 0.14, kContact = 0.3, kFloor = 0.05;  // opacities
 
 // ---- the bodies --------------------------------------------------------------------------------
 
@@ -64,7 +64,7 @@ class Bodies {
         along_ = low[1] - low[0] + high[1] - high[0];
         along_ = along_ * (1 / norm(along_));
         if (cross(along_, high[0] - low[0]) < 0) std::swap(bar_.low, bar_.high);
-        if (shape.disc) axis_ = up(shape.disc->axis), bearing_ = 1.6 * shape.disc->bore;
+        if (shape.disc) axis_ = up(shape.disc->axis);
     }
 
     BodyMesh mesh() const;
@@ -79,8 +79,7 @@ class Bodies {
     }
     Prism round(Vec2 centre, double radius, double back, double front, double chamfer) const;
     Prism cam() const;
-    double bracket_half(Vec2 axis, double top) const { return 1.1 * top + 0.2 * (axis.y - floor_); }
-    void add_bracket(BodyMesh& mesh, Vec2 axis, double top) const;
+    void add_bracket(BodyMesh& mesh, const MechanismShape::Bracket& bracket) const;
     void add_cam(BodyMesh& mesh) const;
     void add_hub(BodyMesh& mesh) const;
     void add_beam(BodyMesh& mesh, bool after_hub) const;
@@ -94,7 +93,7 @@ class Bodies {
     Materials materials_;
     Bar bar_;
     Vec2 hinge_, along_, axis_;  // along the root of the beam; of the cam
-    double depth_ = 0, floor_ = 0, bearing_ = 0;
+    double depth_ = 0, floor_ = 0;
 };
 
 Prism Bodies::round(Vec2 centre, double radius, double back, double front, double chamfer) const {
@@ -117,15 +116,19 @@ Prism Bodies::cam() const {
     return p;
 }
 
-// It carries a shaft behind the moving bodies: a pillar on a plate.
-void Bodies::add_bracket(BodyMesh& mesh, Vec2 axis, double top) const {
-    const double u = stage_.unit, half = bracket_half(axis, top), plate = floor_ + 8 * u, foot = half + 8 * u;
+// Behind the moving bodies: a pillar on a plate. Two that overlap have no chamfers, so that they look like one.
+void Bodies::add_bracket(BodyMesh& mesh, const MechanismShape::Bracket& bracket) const {
+    const Vec2 axis = up(bracket.shaft);
+    const double u = stage_.unit, top = bracket.top, foot = bracket.foot, half = foot - 8 * u, plate = floor_ + 8 * u;
+    const bool joined = std::ranges::any_of(shape_.brackets, [&](const MechanismShape::Bracket& other) {
+        return &other != &bracket && std::abs(other.shaft.x - bracket.shaft.x) < other.foot + foot;
+    });
     Prism base = block(std::array{Vec2{axis.x - foot, floor_}, Vec2{axis.x + foot, floor_}, Vec2{axis.x + foot, plate},
                                   Vec2{axis.x - foot, plate}});
     Prism pillar = block(std::array{Vec2{axis.x - half, plate}, Vec2{axis.x + half, plate}, Vec2{axis.x + top, axis.y},
                                     Vec2{axis.x - top, axis.y}});
     pillar.back = base.back = -kMountDepth * stage_.wide, pillar.front = base.front = kBracketFront * stage_.wide;
-    pillar.chamfer = base.chamfer = 2 * u;
+    pillar.chamfer = base.chamfer = joined ? 0 : 2 * u;
     const bool below = seen_from({0, -1}, {axis.x, plate});
     if (below) mesh.add(pillar, materials_.bracket);
     mesh.add(base, mix(materials_.bracket, materials_.housing, 0.5));
@@ -183,9 +186,8 @@ BodyMesh Bodies::mesh() const {
         !shape_.touch || seen_from({shape_.touch->normal.x, -shape_.touch->normal.y}, up(shape_.touch->at));
     const bool beam_side = seen_from(along_, hinge_ + along_ * shape_.hub);
     const bool hub_nearer = seen_from(hinge_ - axis_, (hinge_ + axis_) * 0.5);
-    if (shape_.disc && hub_nearer) add_bracket(mesh, axis_, bearing_);
-    add_bracket(mesh, hinge_, 0.8 * shape_.hub);
-    if (shape_.disc && !hub_nearer) add_bracket(mesh, axis_, bearing_);
+    const std::size_t brackets = shape_.brackets.size();
+    for (std::size_t i = 0; i < brackets; ++i) add_bracket(mesh, shape_.brackets[hub_nearer ? brackets - 1 - i : i]);
     if (beam_side) add_hub(mesh);
     if (shape_.disc && beam_nearer) add_cam(mesh);
     add_beam(mesh, beam_side);
@@ -226,20 +228,19 @@ void Bodies::floor_shadows(SoftShadows& out) const {
         beam.push_back({at - Vec2{0, half}, at + Vec2{0, half}, soft(height)});
     }
     out.ribbon(beam, kShadow, 0);
-    const auto bracket = [&](Vec2 axis, double top) {
-        const double x = bracket_half(axis, top) + 8 * u;
-        out.rectangle({axis.x - x, -kMountDepth * wide}, {axis.x + x, kBracketFront * wide}, 7 * u, kShadow);
-    };
-    bracket(hinge_, 0.8 * shape_.hub);
-    if (shape_.disc) {
-        const Prism body = cam();
+    for (const MechanismShape::Bracket& each : shape_.brackets) {
+        const double x = up(each.shaft).x;
+        out.rectangle({x - each.foot, -kMountDepth * wide}, {x + each.foot, kBracketFront * wide}, 12 * u, kContact);
+    }
+    const auto below = [&](const Prism& body, double depth) {
         Bounds seen;
         for (const Vec2 p : body.outline) seen.add(p);
         const double height = std::max(seen.y0 - out.level, 0.0);
-        const Vec2 at = fall(height), deep{0, kDiscDepth * wide};
+        const Vec2 at = fall(height), deep{0, depth * wide};
         out.rectangle(Vec2{seen.x0, 0} + at - deep, Vec2{seen.x1, 0} + at + deep, soft(height), kShadow);
-        bracket(axis_, bearing_);
-    }
+    };
+    below(cylinder(hinge_, shape_.hub), kHubDepth);
+    if (shape_.disc) below(cam(), kDiscDepth);
     // The floor itself, as far as the beam reaches to the middle of the panel.
     const double edge = 3 * wide, tip = hinge_.x + (hinge_.x <= 0 ? length : -length);
     out.rectangle({std::min(hinge_.x, tip) - edge / 2, -3 * wide}, {std::max(hinge_.x, tip) + edge / 2, 2.5 * wide},

@@ -231,7 +231,13 @@ MechanismShape mechanism_shape(const sim::Problem& problem, const sim::Pose& pos
     s.hub = hub_radius(problem, look.camera, look.unit);
     s.pin = std::min(7 * look.unit, 0.4 * s.hub);
     s.floor = s.hinge.y + floor_depth(problem, look.camera, look.unit);
+    const auto add_bracket = [&](Vec2 shaft, double top) {
+        s.brackets.push_back(
+            {shaft, top, 1.1 * top + 0.2 * (s.floor - shaft.y) + 8 * mark_unit(problem, look.camera, look.unit)});
+    };
+    add_bracket(s.hinge, 0.8 * s.hub);
     if (problem.cam) s.disc = disc_shape(problem, pose, look.camera, look.unit);
+    if (s.disc) add_bracket(s.disc->axis, 1.6 * s.disc->bore);
     if (beam.contact)
         s.touch = {look.camera.to_pixels(beam.contact->on_disc), {beam.contact->normal.x, -beam.contact->normal.y}};
     continue_into_hub(s);

@@ -41,6 +41,13 @@ struct MechanismShape {
         bool operator==(const Touch&) const = default;
     };
     std::optional<Touch> touch;
+    // A trapezoid from the shaft that it carries down to a plate on the floor.
+    struct Bracket {
+        Vec2 shaft;                // [px]
+        double top = 0, foot = 0;  // half of its width at the shaft, and of the plate [px]
+        bool operator==(const Bracket&) const = default;
+    };
+    std::vector<Bracket> brackets;  // of hub and cam
     bool operator==(const MechanismShape&) const = default;
 };
 

@@ -152,8 +152,8 @@ void Chart::draw_cursor(Canvas& canvas, double x, std::span<const double> readin
     draw_readings(canvas, readings);
 }
 
-// Above its point, or to the left where the row has no room, and before the cursor; none that the reading states, nor
-// where curves share a row.
+// Above its point and what its curve has under the number, or to the left where the row has no room, and before the
+// cursor; none that the reading states, nor where curves share a row.
 void Chart::draw_peaks(Canvas& canvas, const std::vector<figure::Plot>& rows, double cursor,
                        std::span<const double> readings, std::span<const Vec2> peaks) const {
     const double size = style_.numbers, gap = 8 * style_.unit;
@@ -169,9 +169,16 @@ void Chart::draw_peaks(Canvas& canvas, const std::vector<figure::Plot>& rows, do
         const std::string text = reading_text(peaks[i].y);
         if (i < readings.size() && text == reading_text(readings[i])) continue;
         const double wide = canvas.measure(text, style).w;
-        const bool above = at.y > row.box().y + (i == 0 ? 0.7 : 1) * size;  // ticks of events are above lower rows
-        const double right = above ? std::min(at.x + wide / 2, cursor - gap) : at.x - gap;
-        canvas.text({std::max(right, area_.x + wide), at.y + (above ? -0.45 : 0.35) * size}, text, style);
+        double end = std::min(at.x + wide / 2, cursor - gap);
+        if (end < area_.x + wide) end = cursor + gap + wide;  // there is no room before the cursor
+        double top = at.y;
+        for (std::size_t k = 0; k < c_.panel.series[i].x.size(); ++k)
+            if (const Vec2 p = row.at(c_.panel.series[i].x[k], c_.panel.series[i].y[k]); p.x > end - wide && p.x < end)
+                top = std::min(top, p.y);
+        const bool above = top > row.box().y + (i == 0 ? 0.7 : 1) * size;  // ticks of events are above lower rows
+        canvas.text(
+            above ? Vec2{end, top - 0.45 * size} : Vec2{std::max(at.x - gap, area_.x + wide), at.y + 0.35 * size}, text,
+            style);
     }
 }
 

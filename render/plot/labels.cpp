@@ -224,7 +224,7 @@ static int decimals_of_frames(const std::vector<double>& times, double unit, dou
 TimeFormat time_format(const std::vector<double>& times, double latest) {
     TimeFormat out;
     const double span = std::max({std::abs(times.front()), std::abs(times.back()), std::abs(latest)});
-    if (span > 0 && span < 0.1) {
+    if (span > 0 && span < 0.2) {
         const Prefix p = prefix_for(span);
         static constexpr struct { const char *prefix, *symbol; } kUnits[] = {{"m", "ms"}, {"µ", "µs"}, {"n", "ns"}};
         for (const auto& u : kUnits)
@@ -237,12 +237,8 @@ TimeFormat time_format(const std::vector<double>& times, double latest) {
     return out;
 }
 
-std::string clock_text(const TimeFormat& format, double t, double last) {
-    const std::string number = fixed(t / format.unit, format.decimals);
-    const std::string longest = fixed(last / format.unit, format.decimals);
-    std::string room;  // of later digits
-    for (std::size_t i = number.size(); i < longest.size(); ++i) room += "\u2007";
-    return fmt::format("$t$\u2009=\u2009{}{}\u00A0{}", room, number, format.symbol);
+std::string clock_text(const TimeFormat& format, double t) {
+    return fmt::format("$t$\u2009=\u2009{}\u00A0{}", fixed(t / format.unit, format.decimals), format.symbol);
 }
 
 }  // namespace beamcam::render

@@ -37,8 +37,7 @@ struct TimeFormat {
 };
 // The unit suits the latest instant of the charts, too.
 TimeFormat time_format(const std::vector<double>& frame_times, double latest = 0);
-// Padded to the digits of the last instant, so that the text does not move.
-std::string clock_text(const TimeFormat& format, double t, double last);
+std::string clock_text(const TimeFormat& format, double t);
 
 // 1e8 → "10⁸", 2.5e7 → "2.5·10⁷", 1200 → "1200"; exponents as superscripts.
 std::string power_text(double value);

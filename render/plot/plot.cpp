@@ -131,7 +131,7 @@ void Plot::fit(const Painter& on, double width, double height) {
     if (panel_->right) align_zeros(ey, er);
     fit_x(on, panel_->x, ex);
     const int up = style_->palette
-                       ? std::clamp(static_cast<int>(height / (45 * style_->unit)), 2, panel_->y.grid ? 6 : 5)
+                       ? std::clamp(static_cast<int>(height / (40 * style_->unit)), 2, panel_->y.grid ? 6 : 5)
                        : std::clamp(static_cast<int>(height / (2.3 * style_->numbers)), 3, 8);
     y_.emplace(panel_->y, ey, panel_->y.names.empty() ? up : static_cast<int>(height / (kRowOfNames * style_->numbers)),
                what_ + ", vertical axis");

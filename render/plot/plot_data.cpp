@@ -1,6 +1,8 @@
 // The data of a plot: bands, curves, dots and events.
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
 #include <utility>
 
 #include "render/plot/plot.hpp"
@@ -120,17 +122,23 @@ void Plot::draw_dots_and_events(Painter& on, const Interval& part) const {
     }
 }
 
-// Intervals of the past, with their names where they have room.
+// Intervals of the past, each name once, in the widest of its intervals in the plot, if it has room there.
 void Plot::draw_spans(Painter& on, const Interval& part) const {
     TextStyle text = style_->tick_numbers();
     text.align = HAlign::centre;
+    std::map<std::string, double> widest;  // of each name
+    const auto width = [&](const Span& span) {
+        const double left = along_x(span.from), right = along_x(span.to);
+        return left >= box_.x && right <= box_.right() ? right - left : 0;
+    };
+    for (const Span& span : panel_->spans) widest[span.label] = std::max(widest[span.label], width(span));
     for (const Span& span : panel_->spans) {
         const double from = along_x(std::max(span.from, part.from)) + shift_.x,
-                     to = along_x(std::min(span.to, part.to)) + shift_.x, whole = along_x(span.to) - along_x(span.from);
+                     to = along_x(std::min(span.to, part.to)) + shift_.x;
         if (!part.past || !(from < to)) continue;
         on.rectangle({from, box_.y + shift_.y, to - from, box_.h});
         on.fill(span.color);
-        if (on.measure(span.label, text).w + 0.8 * style_->numbers < whole)
+        if (width(span) == widest[span.label] && on.measure(span.label, text).w < width(span))
             on.text({along_x(0.5 * (span.from + span.to)) + shift_.x, box_.y + shift_.y + 0.9 * style_->numbers},
                     span.label, text);
     }

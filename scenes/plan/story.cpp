@@ -204,8 +204,8 @@ PictureOutput told_impact(PictureOutput film, const Scene& scene, const sim::Res
 // ---- "settle" ----------------------------------------------------------------------------------
 
 PictureOutput told_settle(PictureOutput film, const Scene& scene, const sim::Result& motion) {
-    constexpr double kFirst = 4, kMiddle = 5, kLast = 3, kHold = 1, kAtTouch = 0.8;  // durations in the film [s]
-    constexpr std::size_t kBounces = 3;                                              // collisions in the first part
+    constexpr double kFirst = 4, kMiddle = 5, kLast = 3, kAtTouch = 0.8, kAtRest = 1.5;  // durations in the film [s]
+    constexpr std::size_t kBounces = 3;                                                  // collisions in the first part
     FrameSpan& span = film.span;
     const std::size_t number = collision_after(span.from, motion), later = number + kBounces;
     const sim::Collision& first = motion.collisions[number];
@@ -217,11 +217,10 @@ PictureOutput told_settle(PictureOutput film, const Scene& scene, const sim::Res
                         "a larger time.end may have one",
                         motion.end_time));
     const double settled = last.t_start;
-    const auto bounces = std::ranges::count_if(
-        motion.impacts, [&](const sim::Impact& i) { return i.t_start >= first.t_start && i.t_start < settled; });
     const double slow_until = later < motion.collisions.size() ? motion.collisions[later].t_start : settled;
     const double speed = scene.problem.cam ? std::abs(scene.problem.cam->speed) : 0;
-    span.to = std::min(motion.end_time, settled + (speed > 0 ? 2 * std::numbers::pi / speed : settled - span.from));
+    // A cam at rest moves nothing any more.
+    span.to = speed > 0 ? std::min(motion.end_time, settled + 2 * std::numbers::pi / speed) : settled;
     const auto part = [&](double from, double to, double seconds) {
         if (to > from) span.speed.intervals.push_back({at_time(from), at_time(to), speed_for(to - from, seconds)});
     };
@@ -230,16 +229,26 @@ PictureOutput told_settle(PictureOutput film, const Scene& scene, const sim::Res
     part(settled, *span.to, kLast);
     for (std::size_t k = 1; k < span.speed.intervals.size(); ++k)  // the film never slows down
         span.speed.intervals[k].factor = std::max(span.speed.intervals[k].factor, span.speed.intervals[k - 1].factor);
-    span.hold = kHold;
-    film.view.keyframes = {{.at = at_time(first.t_start),
-                            .zoom = kNear,
-                            .follow = render::Anchor{render::Anchor::Kind::contact},
-                            .over = kMove}};
     tell_beginning(film, scene.problem);
     tell(film, first.t_start, touch_of(first), kAtTouch);
-    film.span.events.back().show = kAtTouch + 3 * kFade;  // it is over before the beam is high above the cam
+    const auto strongest = std::ranges::max_element(motion.collisions, {},
+                                                    [](const sim::Collision& c) { return c.force_peak.value_or(0); });
+    if (strongest->t_peak && strongest->t_start > first.t_start && *strongest->t_peak < slow_until)
+        tell(film, *strongest->t_peak,
+             fmt::format("largest force {}, in collision {}", quantity(*strongest->force_peak, "N"),
+                         strongest - motion.collisions.begin() + 1));
+    const auto impacts_between = [&](double from, double to) {
+        return std::ranges::count_if(motion.impacts,
+                                     [&](const sim::Impact& i) { return i.t_start >= from && i.t_start < to; });
+    };
+    if (const auto more = impacts_between(slow_until, settled); more > 1) {
+        tell(film, slow_until, fmt::format("{} more impacts in {}", more, quantity(settled - slow_until, "s")));
+        film.span.events.back().show = kMiddle;
+    }
     tell(film, settled,
-         fmt::format("stays in contact from {:.4g} s on, after {}", settled, counted(bounces, "impact")));
+         fmt::format("stays in contact from {:.4g} s on, after {}", settled,
+                     counted(impacts_between(first.t_start, settled), "impact")),
+         kAtRest);
     return film;
 }
 

@@ -26,25 +26,6 @@ TEST(CloseUp, HasTwoMarksHoweverLow) {
     }
 }
 
-// Further impacts of a collision that the motion does not outlast are unknown.
-TEST(CloseUp, CountsTheImpactsOfFinishedCollisionsOnly) {
-    const auto inked = [](double end) {
-        FilmSetup setup = test::flat_film({.duration = 0.4}, 960, 720);
-        sim::Impact first, second;
-        first.t_start = 0.05, first.t_end = 0.06, second.t_start = 0.1, second.t_end = 0.3;
-        setup.impacts = {first, second};
-        setup.end = end;
-        setup.layout = leaf({.kind = PanelKind::close_up});
-        Film film(std::move(setup));
-        double wide = 0;
-        for (const Box& text : film.geometry(12).texts) wide += text.w;
-        return wide;
-    };
-    const double gap = *test::flat_film({.duration = 0.4}, 960, 720).problem.contact.collision_gap;
-    EXPECT_EQ(inked(0.3 + 1.01 * gap), inked(10));       // "collision 1 · impact 2 of 2"
-    EXPECT_LT(inked(0.3 + 0.99 * gap), inked(10) - 20);  // "collision 1 · impact 2"
-}
-
 // In the middle of the close-up the height of the face above the rim equals the gap. The plot extends from 1.35 of the
 // largest penetration below the rim to 1.9 above.
 TEST(CloseUp, TheDrawnGapIsTheSampledGap) {

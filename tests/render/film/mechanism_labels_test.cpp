@@ -79,16 +79,20 @@ TEST(MechanismLabels, OmegaIsBesideItsArrowAndNoneIsOnACamAtRest) {
     EXPECT_EQ(letters(setup, 2).size() + 1, turning);
 }
 
+// A force whose arrow is shorter than its head has no letter.
 TEST(MechanismLabels, TheForceIsBeyondTheTipOfItsArrow) {
+    constexpr double kHead = 0.13;  // of the longest arrow
     for (const double zoom : {1.0, 3.0}) {
         FilmSetup setup = bare(test::synthetic_film({.duration = 2}));
         setup.view.shot = {.zoom = zoom, .follow = {zoom > 1 ? Anchor::Kind::contact : Anchor::Kind::all, {}}};
         Film film(setup);
+        double largest = 0;
+        for (const sim::Pose& pose : setup.poses) largest = std::max(largest, pose.nearest->force);
         int forces = 0;
         for (int k = 0; k < film.frames(); k += 3) {
             const FrameGeometry g = film.geometry(k);
             const sim::Pose& pose = setup.poses[std::size_t(k)];
-            if (!(pose.nearest->force > 0)) continue;
+            if (!(pose.nearest->force > kHead * largest)) continue;
             ++forces;
             const Vec2 foot = g.camera.to_pixels(g.beam.contact->on_disc),
                        n{g.beam.contact->normal.x, -g.beam.contact->normal.y};
@@ -100,7 +104,7 @@ TEST(MechanismLabels, TheForceIsBeyondTheTipOfItsArrow) {
                                             }))
                 << zoom << ", " << k;
         }
-        EXPECT_GT(forces, 5);
+        EXPECT_GT(forces, 0);
     }
 }
 

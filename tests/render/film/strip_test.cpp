@@ -55,29 +55,6 @@ TEST(ForceStrip, ReachesThePeakOfEveryImpact) {
     EXPECT_GT(highest(0.5), 0.6);
 }
 
-// Few dots far apart are too small to be seen in the pale colour of the future, in which a line of dots is visible.
-TEST(StripPanels, SingleDotsOfTheFutureAreStrongerThanALineOfDots) {
-    const auto future_of = [](bool line) {
-        FilmSetup setup = test::synthetic_film({.duration = 1});
-        setup.impacts.clear();
-        std::vector<std::vector<double>>& columns = setup.trace.values;
-        for (std::vector<double>& column : columns) column.clear();
-        for (int i = 0; i < 500; ++i) {
-            const bool touches = line ? i > 250 : i == 100 || i == 101 || i == 400;
-            const std::array row{i / 500.0, 0.25, 0.1, touches ? 10.0 : 0.0};
-            for (std::size_t k = 0; k < row.size(); ++k) columns[k].push_back(row[k]);
-        }
-        const FilmContext context(std::make_shared<const FilmSetup>(std::move(setup)));
-        return strip_content(context, strip(ChannelKind::contact_x)).panel.dots;
-    };
-    const std::vector<figure::Dot> single = future_of(false), line = future_of(true);
-    ASSERT_EQ(single.size(), 3U);
-    ASSERT_EQ(line.size(), 249U);
-    const Palette& p = palette(Theme::light);
-    EXPECT_GT(contrast(p.paper, single[0].faint), 1.15 * contrast(p.paper, line[0].faint));
-    for (const figure::Dot& dot : single) EXPECT_EQ(dot.faint, single[0].faint);
-}
-
 // One impact at 50 ms with a half-sine force, and pictures at these instants.
 FilmSetup struck(const PanelSpec& spec, const std::vector<double>& instants) {
     constexpr double kTouch = 0.05, kRelease = 0.0504, kPeak = 100, kStep = 2e-5;

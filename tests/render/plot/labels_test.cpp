@@ -64,10 +64,10 @@ TEST(Labels, BothCoefficientsOfStickSlipAreTold) {
 TEST(Labels, ClockShowsADifferenceBetweenNeighbouringFrames) {
     const TimeFormat f = time_format({0, 1 / 60.0, 2 / 60.0, 10});
     EXPECT_EQ(f.decimals, 3);
-    EXPECT_NE(clock_text(f, 1 / 60.0, 1), clock_text(f, 2 / 60.0, 1));
+    EXPECT_NE(clock_text(f, 1 / 60.0), clock_text(f, 2 / 60.0));
     const TimeFormat slow = time_format({0.01, 0.01001, 0.0102});
     EXPECT_STREQ(slow.symbol, "ms");
-    EXPECT_NE(clock_text(slow, 0.01, 1), clock_text(slow, 0.01001, 1));
+    EXPECT_NE(clock_text(slow, 0.01), clock_text(slow, 0.01001));
 }
 
 // A film of one frame states its instant in the unit of its charts.
