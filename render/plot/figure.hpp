@@ -25,7 +25,7 @@ struct Series {
     bool solid = false;               // no dash although the look has one
     bool faded = false;               // lighter and thinner: not reproducible
     bool right = false;               // belongs to the right axis
-    std::vector<double> dash = {};    // instead of the look's, in widths of the line; of films [design px]
+    std::vector<double> dash = {};    // of films [design px]
     double weight = 1;                // of the line
     std::optional<Color> color = {};  // instead of the look's
     std::vector<double> value = {};   // colours the curve by the panel's colour bar; same length as x

@@ -13,8 +13,8 @@ constexpr double kRow = 1.35, kBetween = 0.75;
 std::string shared_label(const std::vector<Series>& all, const Series& first) {
     std::string label;
     for (const Series& s : all) {
-        const bool alike = &s == &first || (s.line && first.line && s.look == first.look &&
-                                            color_of(s) == color_of(first) && s.dash == first.dash);
+        const bool alike =
+            &s == &first || (s.line && first.line && s.look == first.look && color_of(s) == color_of(first));
         if (!alike || s.label.empty()) continue;
         if (label.empty() && &s != &first) return {};
         label += (label.empty() ? "" : ", ") + s.label;

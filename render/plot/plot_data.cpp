@@ -20,8 +20,7 @@ Color color_of(const Series& s) { return s.color.value_or(look(s.look).color); }
 
 Pen curve_pen(const Series& s, const PlotStyle& style) {
     const double width = style.line * s.weight * (s.faded ? 0.7 : 1);
-    const std::vector<double>& dash = s.dash.empty() ? look(s.look).dash : s.dash;
-    Pen pen{color_of(s), width, s.solid ? std::vector<double>() : dashes(dash, width), Cap::butt};
+    Pen pen{color_of(s), width, s.solid ? std::vector<double>() : dashes(look(s.look).dash, width), Cap::butt};
     if (s.faded) pen.color = pale(pen.color);
     return pen;
 }

@@ -34,10 +34,7 @@ class CamDrawing {
   public:
     CamDrawing(const sim::Problem& problem, const sim::Lever& lever) : lever_(lever), shape_(lever.shape()) {
         constexpr int kCorners = 1440;  // a quarter of a degree: chords deviate by 2.4e-6 of the radius of curvature
-        for (int i = 0; i < kCorners; ++i) {
-            const double alpha = sim::kFullTurn * i / kCorners;
-            outline_.push_back(shape_.at(alpha).position(alpha));
-        }
+        for (int i = 0; i < kCorners; ++i) outline_.push_back(place(sim::kFullTurn * i / kCorners));
         pivot_ = -problem.cam->centre;  // where the cam's frame is not turned
         for (const Vec2 p : outline_) bounds_.add(p);
         bounds_.add(pivot_, 6 * kLetters / kPointsPerMetre / 4);
@@ -57,8 +54,7 @@ class CamDrawing {
         for (const auto& [alpha, name] : names_) {
             const Vec2 n = sim::unit(alpha);
             const double wide = 1.6 + 0.55 * static_cast<double>(name.size());
-            bounds_.add(shape_.at(alpha).position(alpha) +
-                        kLetters / kPointsPerMetre * Vec2{n.x < 0 ? -wide : wide, 3 * n.y});
+            bounds_.add(place(alpha) + kLetters / kPointsPerMetre * Vec2{n.x < 0 ? -wide : wide, 3 * n.y});
         }
         speed_ = problem.cam->speed;
     }
@@ -83,6 +79,7 @@ class CamDrawing {
     }
 
   private:
+    Vec2 place(double alpha) const { return shape_.at(alpha).position(alpha); }
     bool jumps() const { return summary_.jump && summary_.jump->speed > 0; }
     // In the middle of each segment; a dwell at both ends of the turn is one.
     void name_segments(const sim::LawProfile& law) {
@@ -116,7 +113,7 @@ class CamDrawing {
         to_->stroke({kBlack, kOutline});
         constexpr double kTick = points(1.5);
         for (const double kink : shape_.kinks()) {
-            const Vec2 p = at(shape_.at(kink).position(kink)), n{std::cos(kink), -std::sin(kink)};
+            const Vec2 p = at(place(kink)), n{std::cos(kink), -std::sin(kink)};
             line(p - kTick * n, p + kTick * n, {kBlack, kThin});
         }
     }
@@ -175,12 +172,11 @@ class CamDrawing {
         for (const auto& [alpha, name] : names_) {
             const bool within = std::cos(alpha - lever_.at(0).alpha) > std::numbers::sqrt2 / 2;
             const Vec2 beside = (within ? -1 : 1) * Vec2{std::cos(alpha), -std::sin(alpha)};
-            label(at(shape_.at(alpha).position(alpha)) + 1.6 * kLetters * beside, name,
+            label(at(place(alpha)) + 1.6 * kLetters * beside, name,
                   beside.x < 0 ? render::HAlign::right : render::HAlign::left, within ? kFill : kWhite);
         }
         if (!jumps()) return;
-        const double alpha = names_.back().first;
-        to_->circle(at(shape_.at(alpha).position(alpha)), points(0.7));
+        to_->circle(at(place(names_.back().first)), points(0.7));
         to_->fill(kBlack);
     }
 

@@ -43,7 +43,7 @@ std::vector<Panel> impact_maps(const Subject& subject, const sim::Result& result
     const auto& [problem, units, lang, end] = subject;
     const auto speed = [](const char* of) { return axis_label(of, "m/s"); };
     const Measure turning = measure_in(units, "rad/s");
-    Panel loss = map_panel(phrase(lang, "restitution"), speed("$v$"), "$c$"),
+    Panel loss = map_panel(phrase(lang, "restitution") + "; – – $c$_{r}", speed("$v$"), "$c$"),
           next = map_panel(phrase(lang, "next collision") + "; —\u00A0$v_{k+1}$\u00A0=\u00A0$v_{k}$", speed("$v_{k}$"),
                            speed("$v_{k+1}$")),
           phase = map_panel(phrase(lang, "approach speed"), kPhaseLabel, speed("$v$")),
@@ -56,7 +56,7 @@ std::vector<Panel> impact_maps(const Subject& subject, const sim::Result& result
     const std::vector<sim::Collision> all = strikes(problem, result.collisions, from, to);
     for (std::size_t k = 0; k + 1 < all.size(); ++k)
         next.series[0].add(std::abs(all[k].v_n_before), std::abs(all[k + 1].v_n_before));
-    loss.rules = {{.at = 1, .label = phrase(lang, "no loss")}, {.at = problem.contact.restitution, .label = "$c$_{r}"}};
+    loss.rules = {{.at = problem.contact.restitution}, {.at = 1, .label = phrase(lang, "no loss")}};
     if (!next.series[0].x.empty()) {
         const double fastest = std::ranges::max(next.series[0].x);
         next.series.push_back(

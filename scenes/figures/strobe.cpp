@@ -1,6 +1,4 @@
 // The beam at several instants and the cam at both ends, in lines.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -108,7 +106,7 @@ Panel strobe_panel(const std::vector<sim::Pose>& poses, const Subject& subject, 
     if (problem.cam) sketch.dot(problem.cam->centre);
     label_instants(poses, sketch);
     const std::string step = render::quantity(poses[1].t - poses[0].t, "s");
-    add_scale(problem, phrase(subject.lang, fmt::format("every {}", step)), extent, sketch);
+    add_scale(problem, phrase(subject.lang, "every {}", step), extent, sketch);
     return {.shapes = sketch.take()};
 }
 

@@ -267,8 +267,9 @@ std::vector<render::figure::PageCanvas::Written> instants_on(const render::figur
 
 TEST(Overviews, AStrobeNamesItsEndsAndTheTimeBetweenInstants) {
     const auto labels = [](const std::string& end) {
+        const auto figure = overview_of("strobe", R"(, "to": )" + end);
         std::vector<std::string> out;
-        for (const auto& shape : overview_of("strobe", R"(, "to": )" + end).panels[0].shapes)
+        for (const auto& shape : figure.panels[0].shapes)
             if (shape.kind == render::figure::Shape::Kind::label) out.push_back(shape.markup);
         return out;
     };
