@@ -27,7 +27,7 @@ constexpr double kFlightRounding = 1e-12;
 constexpr double kShortestHeld = 1e-5;
 constexpr double kStiff = 1;  // damping ratio above which stability limits explicit steps: BDF is used
 // [rad] of the fastest vibration in a step of modes that are not the coordinates: where their coupling asks for shorter
-// ones in contact, as nothing settles, Runge and Kutta's method is as good.
+// ones, Runge and Kutta's method is as good.
 constexpr double kLeastTurns = 0.5;
 constexpr long kFirstRetry = 32;  // steps of the other method before the next try, twice as many each time
 
@@ -71,10 +71,7 @@ class Exponential final : public Integrator {
         // A rigid beam in sustained contact follows the cam: no vibration limits the steps of the fallback. At
         // tolerances near rounding, as in the search of orbits, this method would take shorter ones.
         falling_back_ = phase.held && step_.n == 0;
-        if (!falling_back_ && touching_ && !begin_touch(t, y)) {
-            falling_back_ = true;
-            ++counters.handed_over;
-        }
+        falling_back_ = falling_back_ || (touching_ && !begin_touch(t, y));
         first_step_ = limited(std::numeric_limits<double>::infinity());
         steps_to_retry_ = kNever;
         retry_after_ = kFirstRetry;
@@ -84,13 +81,8 @@ class Exponential final : public Integrator {
     }
 
     const Segment& step() override {
-        if (!touching_) {
-            flight();
-            return segment();
-        }
         if (!falling_back_) {
-            if (touch_step()) return segment();
-            if (retry_after_ == kFirstRetry) ++counters.handed_over;
+            if (own_step()) return segment();
             hand_over(t_, segment().end.data(), first_step_);
             retry_later();
         } else if (steps_to_retry_ == 0) {
@@ -116,7 +108,6 @@ class Exponential final : public Integrator {
         scratch_.resize(s.end.size());
         s.value(s.t0, scratch_.data());
         if (solve_up_to(at)) return s;
-        ++counters.handed_over;
         hand_over(s.t0, scratch_.data(), at - s.t0);
         return counted(other_->step());
     }
@@ -124,11 +115,13 @@ class Exponential final : public Integrator {
   private:
     ExponentialSegment& segment() { return step_.segment; }
 
-    // Another try of this method in contact from where the other one has arrived, which otherwise goes on from there.
+    // One step of this method; false where another one has to take over (the state is then that of the start).
+    bool own_step() { return touching_ ? touch_step() : flight(); }
+    // Another try of this method from where the other one has arrived, which otherwise goes on from there.
     bool retry() {
         last_->value(last_->t1, segment().end.data());
         t_ = last_->t1;
-        falling_back_ = !begin_touch(t_, segment().end.data()) || !touch_step();
+        falling_back_ = (touching_ && !begin_touch(t_, segment().end.data())) || !own_step();
         return !falling_back_;
     }
     // The other method takes some steps before the next try.
@@ -178,7 +171,7 @@ class Exponential final : public Integrator {
     }
 
     // Throws StepFailure where no step, however short, keeps to the tolerance.
-    void flight() {
+    bool flight() {
         ExponentialSegment& s = segment();
         s.touching = false;
         step_.begin(t_);
@@ -193,6 +186,10 @@ class Exponential final : public Integrator {
                 first_step_ = std::numeric_limits<double>::infinity();
                 break;
             }
+            if (too_short(table.h)) {
+                flight_level_ = kFirstFlightLevel;
+                return false;
+            }
             ++counters.rejected;
             flight_level_ = lower_level(flight_level_, table.h, error, kFlightOrder, 4);
             if (flight_level_ < kLowestLevel || step_length(flight_level_) < kShortestFlight * std::fabs(t_))
@@ -201,6 +198,7 @@ class Exponential final : public Integrator {
         ++counters.steps;
         step_.finish(nullptr);
         t_ = s.t1;
+        return true;
     }
 
     bool begin_touch(double t, const double* y) {
@@ -210,7 +208,6 @@ class Exponential final : public Integrator {
         return true;
     }
 
-    // One step; false when this method cannot take the contact (the state is then that of the start).
     bool touch_step() {
         step_.begin(t_);
         contact_->begin();

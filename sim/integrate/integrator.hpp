@@ -56,9 +56,7 @@ inline const char* step_failure_reason(bool finite) {
 
 struct IntegratorCounters {
     long steps = 0, rejected = 0, rhs = 0, jacobians = 0;
-    // One method may leave phases to another: the steps of the other, and the contacts that were handed over because
-    // their equations could not be solved.
-    long fallback_steps = 0, handed_over = 0;
+    long fallback_steps = 0;  // of another method, to which this one left phases
     Method fallback = Method::rk8;
 };
 

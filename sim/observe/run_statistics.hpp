@@ -7,8 +7,7 @@ namespace beamcam::sim {
 
 // Departures from the request, and events that could not be resolved.
 struct Fallbacks {
-    long steps = 0;        // by `method` instead of the exponential collocation
-    long handed_over = 0;  // contacts that the collocation could not solve
+    long steps = 0;  // by `method` instead of the exponential collocation
     long friction_changes =
         0;                 // steps in which stick and slip alternate at one instant and the grip was left as it was
     long strikes = 0;      // taken as plastic because the rebound is below the error of the step

@@ -98,12 +98,8 @@ MissedPeaks missed_peaks(const std::vector<double>& times, const std::vector<dou
 }
 
 // Departures from the request, and events that could not be resolved.
-void warn_of_fallbacks(const Problem& problem, const Result& result, const RunStatistics& statistics,
-                       std::vector<std::string>& out) {
+void warn_of_fallbacks(const Problem& problem, const RunStatistics& statistics, std::vector<std::string>& out) {
     const Fallbacks& f = statistics.fallbacks;
-    if (f.handed_over > 0)
-        out.push_back(fmt::format("{} could not be solved by the exponential collocation; {} made {} of {} steps",
-                                  counted(f.handed_over, "contact"), name(f.method), f.steps, result.counters.steps));
     if (f.left_behind > 0)
         out.push_back(
             "no motion was found in which the resting beam follows the turning cam: it starts from the equilibrium "
@@ -148,7 +144,7 @@ std::vector<std::string> warnings(const Problem& problem, const Result& result, 
     warn_of_ledger(problem, result, out);
     warn_of_slopes(problem, largest_elastic, out);
     warn_of_floor(problem, result, statistics, out);
-    warn_of_fallbacks(problem, result, statistics, out);
+    warn_of_fallbacks(problem, statistics, out);
     return out;
 }
 

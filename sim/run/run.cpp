@@ -252,7 +252,6 @@ RunStatistics Run::statistics() const {
     all.method = method_;
     all.fallbacks.coarse = probe_.coarse;
     all.fallbacks.steps = done.fallback_steps;
-    all.fallbacks.handed_over = done.handed_over;
     all.fallbacks.method = done.fallback;
     return all;
 }

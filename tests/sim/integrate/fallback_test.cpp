@@ -41,16 +41,13 @@ bool reports(const Result& result, const char* words) {
 
 using StepsByMethod = std::vector<std::pair<Method, long>>;
 
-TEST(Fallback, AContactAtTheEndOfTheBeamIsHandedOverCountedAndReported) {
+TEST(Fallback, AContactAtTheEndOfTheBeamIsHandedOverAndCounted) {
     Problem p = contact_at_the_end();
     const Result r = run(p, 0.4);
-    EXPECT_TRUE(reports(r, "1 contact could not be solved by the exponential collocation; rk8 made"));
     ASSERT_EQ(r.steps_by_method.size(), 2u);
     EXPECT_EQ(r.steps_by_method[0].first, Method::automatic);
     EXPECT_EQ(r.steps_by_method[1].first, Method::rk8);
     EXPECT_EQ(r.steps_by_method[0].second + r.steps_by_method[1].second, r.counters.steps);
-    p.cam->centre.x = 0.9;
-    EXPECT_FALSE(reports(run(p, 0.4), "could not be solved"));
 }
 
 TEST(Fallback, StepsAreCountedByTheMethodThatTookThem) {
@@ -64,6 +61,50 @@ TEST(Fallback, StepsAreCountedByTheMethodThatTookThem) {
     p.solver.method = Method::cvode_adams;
     r = run(p, 0.5);
     EXPECT_EQ(r.steps_by_method, (StepsByMethod{{Method::cvode_adams, r.counters.steps}}));
+}
+
+// With a light hub bending changes most of the inertia, and the sweeps of `exact` do not contract, however short the
+// step.
+TEST(Fallback, AFlightOfABeamThatBendsFarOnALightHubIsHandedOver) {
+    Problem p;
+    p.hub.inertia = 0;
+    p.beam.model = ModelKind::exact;
+    p.beam.modes = 3;
+    p.beam.length = 0.6;
+    p.beam.section = Rectangle{0.02, 0.003};
+    p.beam.density = 1190;
+    p.beam.youngs_modulus = 3.3e9;
+    p.cam = Cam{{0.3, -0.03}, 0.06, 0.018, 0, 12, {}, 0.3};
+    p.contact.stiffness = 1e6;
+    p.initial.angle = 0.8;
+    p.solver.max_steps = 3000;
+    const Result r = run(p, 0.6);
+    p.solver = {Method::rk8, 1e-11, 1e-13, 100'000};
+    const Result other = run(p, 0.6);
+    EXPECT_LT(r.energy_residual_max, 1e-8 * r.energy_scale);
+    ASSERT_EQ(r.impacts.size(), other.impacts.size());
+    for (std::size_t i = 0; i < r.impacts.size(); ++i) {
+        EXPECT_NEAR(r.impacts[i].t_start, other.impacts[i].t_start, 1e-7) << i;
+        EXPECT_NEAR(r.impacts[i].force_peak.value_or(0), other.impacts[i].force_peak.value_or(1), 1e-3)
+            << i;  // [N] of 36
+    }
+}
+
+// A beam that hangs in a deep bend is released.
+TEST(Fallback, ABentBeamReleasedOnALightHubStarts) {
+    Problem p;
+    p.hub.inertia = 0;
+    p.beam.model = ModelKind::exact;
+    p.beam.modes = 3;
+    p.beam.length = 0.3;
+    p.beam.section = Rectangle{0.03, 0.02};
+    p.beam.density = 1100;
+    p.beam.youngs_modulus = 2e6;
+    p.cam = {};
+    p.initial = {0.5, 0, InitialShape::static_equilibrium};
+    const Result r = run(p, 0.5);
+    EXPECT_LT(r.energy_residual_max, 1e-8 * r.energy_scale);
+    ASSERT_EQ(r.steps_by_method.size(), 2u);
 }
 
 // Runge and Kutta's method would take its steps for stability.
