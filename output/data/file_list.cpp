@@ -88,15 +88,16 @@ std::optional<FileRecord> record_of(const std::string& line) {
 // The list, open and locked. A process that rewrites it replaces the file, so the lock of the old one is given up.
 Descriptor locked_list(const fs::path& list) {
     for (;;) {
+        struct stat own = {}, present = {};
+        if (lstat(list.c_str(), &present) == 0 && !is_list(present))
+            throw IoError(fmt::format("cannot write {}: it is no plain file; remove it", list.string()));
         Descriptor opened(list, O_RDWR | O_APPEND | O_CREAT | O_NOFOLLOW | O_NONBLOCK);
         if (!opened && errno == EACCES && is_list(list)) {  // another user's, in a folder of both
             write_file(list, read_file(list));
             opened = Descriptor(list, O_RDWR | O_APPEND | O_NOFOLLOW | O_NONBLOCK);
         }
-        struct stat own = {}, present = {};
         if (!opened || fstat(opened.number(), &own) != 0) throw write_error(list, errno);
-        if (own.st_nlink == 0) continue;  // it was replaced just now
-        if (!is_list(own)) throw IoError(fmt::format("cannot write {}: it is no plain file; remove it", list.string()));
+        if (!is_list(own)) continue;  // it was replaced just now
         opened.lock();  // some file systems have no locks; then two processes may lose a line, but never a file
         if (lstat(list.c_str(), &present) == 0 && present.st_ino == own.st_ino && present.st_dev == own.st_dev)
             return opened;

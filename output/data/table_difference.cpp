@@ -32,7 +32,8 @@ std::vector<std::size_t> in_order_of(const std::vector<double>& t) {
     return order;
 }
 
-std::vector<Pair> common_rows(const ColumnTable& a, const ColumnTable& b, double until) {
+std::vector<Pair> common_rows(const ColumnTable& a, const ColumnTable& b, double until,
+                              std::optional<OtherInstant>& other) {
     std::vector<Pair> pairs;
     const auto instants = [](const ColumnTable& table) {  // null also if they are texts
         const TableColumn* t = table.column("t");
@@ -49,11 +50,10 @@ std::vector<Pair> common_rows(const ColumnTable& a, const ColumnTable& b, double
         if (is_same_instant(x, y)) {
             if (!(x > until)) pairs.push_back({oa[i], ob[k], x});
             ++i, ++k;
-        } else if (comes_before(x, y)) {
-            ++i;
-        } else {
-            ++k;
+            continue;
         }
+        if (!other) other = {oa[i], x, y};
+        ++(comes_before(x, y) ? i : k);
     }
     return pairs;
 }
@@ -106,7 +106,7 @@ TableDifference difference(const ColumnTable& a, const ColumnTable& b, double un
     TableDifference d;
     d.rows_a = a.rows();
     d.rows_b = b.rows();
-    const std::vector<Pair> rows = common_rows(a, b, until);
+    const std::vector<Pair> rows = common_rows(a, b, until, d.other_instant);
     d.rows_compared = rows.size();
     const std::map<std::string, const TableColumn*> in_a = by_name(a), in_b = by_name(b);
     for (const TableColumn& column : a.columns) {

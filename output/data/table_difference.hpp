@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,14 @@ struct ColumnDifference {
     bool identical = true;      // every bit, empty cells included
 };
 
+struct OtherInstant {
+    std::size_t row;  // of `a`, from 0
+    double a, b;
+};
+
 struct TableDifference {
     std::size_t rows_a = 0, rows_b = 0, rows_compared = 0;
+    std::optional<OtherInstant> other_instant;      // the first, in the order of the instants
     std::vector<std::string> only_in_a, only_in_b;  // columns
     std::vector<ColumnDifference> columns;          // in the order of `a`
 

@@ -11,15 +11,15 @@ const char* remedy(int error_number) {
     switch (error_number) {
         case ENOSPC:
         case EDQUOT:
-            return "; free some space or choose another directory with -o";
+            return "; free some space or choose another directory";
         case EFBIG:
             return "; the file is larger than this disk or this shell's limit (ulimit -f) allows";
         case EACCES:
         case EPERM:
         case EROFS:
-            return "; choose a directory that you may write to with -o";
+            return "; choose a directory that you may write to";
         case ENOENT:
-            return "; make the directory first or choose another one with -o";
+            return "; make the directory first or choose another one";
         case ENOTDIR:
             return "; a part of its path is a file, not a directory";
         case EISDIR:
@@ -42,7 +42,10 @@ IoError write_error(const std::filesystem::path& file, int error_number) {
 }
 
 IoError read_error(const std::filesystem::path& file, int error_number) {
-    return IoError("cannot read " + file.string() + ": " + std::generic_category().message(error_number));
+    const char* remedy = error_number == ENOENT   ? "; correct its name, or make the file first"
+                         : error_number == EACCES ? "; change its permissions, or read a copy of it"
+                                                  : "";
+    return IoError("cannot read " + file.string() + ": " + std::generic_category().message(error_number) + remedy);
 }
 
 IoError io_error(const std::filesystem::filesystem_error& error) {

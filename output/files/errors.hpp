@@ -28,7 +28,7 @@ struct UnsupportedOption : std::runtime_error {
 
 // "cannot write out/fall.mp4: No space left on device; free some space or …" from an errno value.
 IoError write_error(const std::filesystem::path& file, int error_number);
-// "cannot read film.mp4: No such file or directory".
+// "cannot read film.mp4: No such file or directory; correct its name, or …".
 IoError read_error(const std::filesystem::path& file, int error_number);
 // The error of the standard library, with its path and cause.
 IoError io_error(const std::filesystem::filesystem_error& error);

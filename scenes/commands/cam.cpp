@@ -50,7 +50,9 @@ sim::BeamJump jump_of_beam(const Scene& scene, const sim::Lever::Summary& summar
     const sim::Problem& p = scene.problem;
     if (is_prescribed(p.hub.drive)) throw UsageError("--beam: the drive prescribes the hub's angle; use a free hub");
     if (!summary.jump || !(summary.jump->speed > 0))
-        throw UsageError("--beam: a straight rigid lever has no jump speed from which the search could begin");
+        throw UsageError(
+            "--beam: a straight rigid lever has no jump speed from which the search could begin; see the gap_peak of "
+            "`beamcam sweep SCENE --over cam.speed=FIRST:LAST:COUNT --sample peaks`");
     Progress progress(progress_style(common));
     const ProgressStage stage(progress, "jump speed of the beam", std::nullopt, "motions");
     const auto found = sim::beam_jump(p, summary.jump->speed, [&](double motion) { return progress.reach(motion); });

@@ -21,7 +21,7 @@ void warn_of_characters(const Common& common, const std::string& path, const Sce
 
 int act(const CheckArguments& args) {
     return for_each_file(args.scenes, [&](const std::string& path) {
-        const Scene scene = with_default_output(load_scene(path, args.common));
+        const Scene scene = load_scene_with_output(path, args.common);
         warn_of_characters(args.common, path, scene);
         for (const std::string& note : scene.notes) inform(args.common, fmt::format("{}: note: {}", path, note));
         inform(args.common, fmt::format("{}: fine", path));

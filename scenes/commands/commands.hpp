@@ -66,6 +66,8 @@ using output::print_text;
 void print_result(const Common& common, const std::string& json, const std::string& text);
 // Throws SceneError with every issue of the scene; warnings go to standard error.
 Scene load_scene(const std::string& path, const Common& common);
+// The same, with its film if it lists no outputs.
+Scene load_scene_with_output(const std::string& path, const Common& common);
 // Loads the scenes that can be read, each with its film if it lists no outputs; the errors of the others are
 // reported.
 struct LoadedScenes {
@@ -73,8 +75,6 @@ struct LoadedScenes {
     int code;  // of the first error
 };
 LoadedScenes load_scenes(const std::vector<std::string>& paths, const Common& common);
-// The scene with the film that a scene without outputs yields.
-Scene with_default_output(Scene scene);
 // The look of new films of a scene: its first film, sequence or still picture, else the default film.
 PictureOutput film_template(const Scene& scene);
 ProgressStyle progress_style(const Common& common);                   // resolved; none with -q

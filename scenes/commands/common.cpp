@@ -16,6 +16,7 @@
 #include "scenes/format/reader.hpp"
 #include "scenes/plan/plan.hpp"
 #include "scenes/scene/files.hpp"
+#include "scenes/scene/film_times.hpp"
 
 namespace beamcam::scenes {
 
@@ -81,11 +82,27 @@ void inform(const Common& common, const std::string& text) {
     if (!common.quiet) output::print_message("{}\n", text);
 }
 
-Scene load_scene(const std::string& path, const Common& common) {
-    Reading reading = read_scene(load_source(path), common.overrides);
+static Scene scene_of(Reading reading, const Common& common) {
     if (!reading.scene) throw SceneError(reading.report());
     if (!common.quiet && !reading.messages.empty()) output::print_message("{}", reading.report());
     return std::move(*reading.scene);
+}
+
+Scene load_scene(const std::string& path, const Common& common) {
+    return scene_of(read_scene(load_source(path), common.overrides), common);
+}
+
+Scene load_scene_with_output(const std::string& path, const Common& common) {
+    Reading reading = read_scene(load_source(path), common.overrides);
+    if (!reading.scene || !reading.scene->outputs.empty()) return scene_of(std::move(reading), common);
+    const PictureOutput film = default_film(*reading.scene);
+    reading.scene->outputs.push_back(film);
+    if (const std::string problem = problem_with_span(film.span, reading.scene->end_time); !problem.empty()) {
+        const Node &time = reading.root.find("time")->value, &end = time.find("end")->value;  // not the default
+        reading.messages.push_back({end.place, "time.end: " + problem, true});
+        reading.scene.reset();
+    }
+    return scene_of(std::move(reading), common);
 }
 
 void print_result(const Common& common, const std::string& json, const std::string& text) {
@@ -94,14 +111,9 @@ void print_result(const Common& common, const std::string& json, const std::stri
 
 LoadedScenes load_scenes(const std::vector<std::string>& paths, const Common& common) {
     LoadedScenes all;
-    all.code = for_each_file(
-        paths, [&](const auto& path) { all.scenes.push_back(with_default_output(load_scene(path, common))); });
+    all.code =
+        for_each_file(paths, [&](const auto& path) { all.scenes.push_back(load_scene_with_output(path, common)); });
     return all;
-}
-
-Scene with_default_output(Scene scene) {
-    if (scene.outputs.empty()) scene.outputs.push_back(default_film(scene));
-    return scene;
 }
 
 PictureOutput film_template(const Scene& scene) {

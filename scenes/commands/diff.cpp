@@ -1,7 +1,9 @@
 // `beamcam diff`: the difference of two pictures or tables.
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <optional>
+#include <system_error>
 
 #include "output/data/file_list.hpp"
 #include "output/data/table_reader.hpp"
@@ -36,6 +38,10 @@ int compare_pictures(const DiffArguments& args) {
     output::FileList file_list(args.common.force);
     if (args.picture) {
         require_ending("-o", *args.picture, {".png"});
+        std::error_code absent;
+        for (const std::string& input : {args.a, args.b})
+            if (std::filesystem::equivalent(input, *args.picture, absent))
+                throw UsageError(fmt::format("-o {} is one of the pictures; name another file", *args.picture));
         file_list.require_replaceable(*args.picture);
     }
     const output::Raster a = output::read_png(args.a), b = output::read_png(args.b);

@@ -122,8 +122,11 @@ Node output_node(const FigureArguments& args, const std::optional<Preset>& prese
     if (preset) add_preset(output, *preset);
     if (args.describes_panel() && !preset)
         add(output, "panels", array_node({object_node({{"channels", args.channels.values("--channels")}})}));
-    if (Node* panels = child(output, "panels"); args.title && panels && !panels->items.empty())
-        add(panels->items.front(), "title", *args.title);
+    if (Node* panels = child(output, "panels"); panels && !panels->items.empty()) {
+        if (args.title) add(panels->items.front(), "title", *args.title);
+        for (Node& panel : panels->items)
+            if (args.logarithmic) remove(panel, "scale"), add(panel, "scale", "log");
+    }
     if (!args.compare.empty()) add(output, "compare", compare_node(args));
     if (!args.notes.empty()) add(output, "notes", array_node(args.notes, note_node));
     return output;
@@ -224,6 +227,10 @@ void act(const FigureArguments& given) {
                                      in_quotes(args.figure),
                                      suggestion_or_list(args.figure, names_of_figures_and_presets())));
     }
+    if (preset && preset->keys.find("panels") && args.channels.any())
+        throw UsageError(fmt::format(
+            "--channels: the panels of the preset {} have channels and units of their own; give one of both",
+            preset->name));
     reject_options_of_others(args, *type);
     if (args.file.empty()) args.file = (preset ? preset->name : args.figure) + ".pdf";
     if (const auto refusal = type->refusal(scene))
@@ -300,8 +307,7 @@ void add_figure(Program& program) {
              "In place of SCENE a table may stand (.csv, .npz): its columns --channels over --x, with --label, --unit, "
              "--x-label and --x-unit. Without -o its columns are listed.");
     add_scene(app, args.scene, args.common);
-    app.add_option("FIGURE", args.figure,
-                   "Name of the figure or preset; not needed with --channels (\"series\")");
+    app.add_option("FIGURE", args.figure, "Name of the figure or preset; not needed with --channels (\"series\")");
     app.add_flag("--list", args.list, "List all figures and presets, and which of them this scene cannot have");
     add_option(app, "--preset", args.preset, "FILE", "A preset of your own: .json with the keys of a figure");
     add_option(app, "-o,--output", args.file, "FILE", "File to make: .pdf, .svg or .png (default: FIGURE.pdf)");

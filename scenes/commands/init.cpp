@@ -30,6 +30,13 @@ const EmbeddedText& example_named(const std::string& name) {
     throw UsageError(fmt::format("no example is named {}{}", in_quotes(name), suggestion_or_list(name, known)));
 }
 
+// The name as a word of the shell.
+std::string shell_word(std::string name) {
+    if (name.find_first_of(" \t'\"\\$`&;|<>()*?[]{}!#~") == std::string::npos) return name;
+    replace_all(name, "'", "'\\''");
+    return "'" + name + "'";
+}
+
 int act(const InitArguments& args) {
     const EmbeddedText& example = example_named(args.from);
     const std::string own = std::filesystem::path(example.name).filename().string();
@@ -50,7 +57,7 @@ int act(const InitArguments& args) {
     output::write_file(path, text);
     inform(args.common, fmt::format("wrote {}; `beamcam run {}` makes its outputs, `beamcam schema > "
                                     "beamcam-scene.schema.json` lets an editor complete its keys",
-                                    path.string(), path.string()));
+                                    path.string(), shell_word(path.string())));
     return 0;
 }
 

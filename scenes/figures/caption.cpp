@@ -60,8 +60,11 @@ std::vector<std::string> differences(const sim::Problem& problem) {
 // Equal in the digits that the paper prints.
 bool as_printed(double value, double printed) { return std::abs(value - printed) <= 1e-4 * std::abs(printed); }
 
-std::string caption_of(const std::string& all) {
-    return all.empty() ? "All parameters have their default values." : fmt::format("Parameters in SI units: {}.", all);
+std::string caption_of(const std::vector<const sim::Problem*>& problems) {
+    const std::string all = parameters(problems);
+    if (!all.empty()) return fmt::format("Parameters in SI units: {}.", all);
+    return problems.size() > 1 ? "All parameters that the motions share have their default values."
+                               : "All parameters have their default values.";
 }
 
 bool has_paler_curves(const render::figure::Figure& figure) {
@@ -140,7 +143,7 @@ std::string accuracy(const Runs& runs) {
 void add_caption(render::figure::Figure& figure, const Runs& runs) {
     std::vector<const sim::Problem*> problems;
     for (const auto& [problem, result] : runs) problems.push_back(problem);
-    figure.caption = caption_of(parameters(problems));
+    figure.caption = caption_of(problems);
     figure.accuracy = accuracy(runs);
     if (has_paler_curves(figure)) figure.accuracy += " Where curves are paler, $θ$ is not reproducible to 10^{−6} rad.";
 }
@@ -148,7 +151,7 @@ void add_caption(render::figure::Figure& figure, const Runs& runs) {
 void add_caption(render::figure::Figure& figure, const std::vector<sim::Problem>& problems) {
     std::vector<const sim::Problem*> all;
     for (const sim::Problem& problem : problems) all.push_back(&problem);
-    figure.caption = caption_of(parameters(all));
+    figure.caption = caption_of(all);
     figure.accuracy = "Nothing is integrated for this figure.";
 }
 

@@ -7,6 +7,7 @@
 
 #include "scenes/figures/axis_labels.hpp"
 #include "scenes/figures/figure_types.hpp"
+#include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -112,9 +113,9 @@ FigureDrawing prepare_histograms(const Scene& scene, const FigureOutput& how, Mo
         constexpr std::size_t kFewest = 5;
         if (speeds.size() < kFewest)
             throw render::PictureError(fmt::format(
-                "figure impact-histograms: {} impacts from {:g} s to {:g} s are too few for a histogram; raise "
-                "time.end, or see impact-maps",
-                speeds.size(), from, to));
+                "figure impact-histograms: only {} from {:g} s to {:g} s, too few for a histogram; raise time.end, or "
+                "see impact-maps",
+                counted(speeds.size(), "impact"), from, to));
         std::vector<Panel> panels = lettered({histogram(axis_label(phrase(lang, "approach speed"), "m/s"), speeds,
                                                         *std::ranges::max_element(speeds), lang),
                                               histogram(kPhaseLabel, phases, 1, lang)});

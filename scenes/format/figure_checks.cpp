@@ -150,8 +150,9 @@ void check_series_panel(ObjectReader& r, const SeriesPanel& panel) {
     check_markup(r, "label", panel.label);
     check_markup(r, "right_label", panel.right_label);
     if (panel.low && panel.high && !(*panel.low < *panel.high)) r.reject("high", " must be above \"low\"");
-    if (panel.logarithmic && panel.low && !(*panel.low > 0))
-        r.reject("low", ": the lower end of a logarithmic axis must be positive");
+    for (const auto& [key, end] : {std::pair{"low", panel.low}, std::pair{"high", panel.high}})
+        if (panel.logarithmic && end && !(*end > 0))
+            r.reject_value(r.place(key), key, ": the ends of a logarithmic axis must be positive");
 }
 
 void check_figure(ObjectReader& r, FigureOutput& figure) {

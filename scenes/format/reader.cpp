@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "output/files/errors.hpp"
 #include "scenes/format/object_reader.hpp"
 #include "scenes/format/overrides.hpp"
 #include "scenes/format/presets.hpp"
@@ -108,7 +109,7 @@ Source load_source(const std::string& path, const char* remedy) {
     std::unique_ptr<std::FILE, CloseFile> file(path == "-" ? stdin : std::fopen(path.c_str(), "rb"));
     if (!file)
         throw UnreadableFile(errno == ENOENT ? fmt::format("{} does not exist; {}", path, remedy)
-                                             : fmt::format("{} cannot be opened: {}", path, std::strerror(errno)));
+                                             : output::read_error(path, errno).what());
     Source source{path == "-" ? "stdin" : path, {}, true};
     std::array<char, 65536> block;
     while (const std::size_t n = std::fread(block.data(), 1, block.size(), file.get())) {

@@ -187,6 +187,8 @@ void check_sweep(ObjectReader& r, const Sweep& sweep) {
     };
     if (sweep.over.size() == 2 && sweep.over[0].key == sweep.over[1].key)
         reject("over.1.key", fmt::format("{} is listed twice; remove one of them", sweep.over[0].key));
+    const bool carries = std::ranges::any_of(
+        sweep.seeds.kinds, [](SeedKind kind) { return kind == SeedKind::carry_up || kind == SeedKind::carry_down; });
     for (std::size_t i = 0; i < sweep.over.size(); ++i) {
         const SweptKey& over = sweep.over[i];
         const std::string at = fmt::format("over.{}", i);
@@ -199,9 +201,12 @@ void check_sweep(ObjectReader& r, const Sweep& sweep) {
             reject(at + ".count", "one value cannot have two ends; write at least 2, or equal ends");
         else if (ranged && over.logarithmic && !(*over.from * *over.to > 0))
             reject(at, "logarithmic spacing needs ends of one sign, neither of them 0");
+        std::vector<double> values = over.values;
+        if (ranged && *over.count > 1) values = {*over.from, *over.to};
+        std::ranges::sort(values);
+        if (std::ranges::adjacent_find(values) != values.end() && !carries && !is_random(sweep.seeds))
+            reject(at + (ranged ? ".count" : ".values"), "equal values give equal motions; write each value once");
     }
-    const bool carries = std::ranges::any_of(
-        sweep.seeds.kinds, [](SeedKind kind) { return kind == SeedKind::carry_up || kind == SeedKind::carry_down; });
     for (const SweptKey& over : sweep.over)
         if (carries && over.key.starts_with("initial."))
             reject("seed", fmt::format("a carried motion does not start at {}; use \"same\"", over.key));

@@ -45,10 +45,16 @@ std::string to_text(const PictureComparison& c) {
     return text + fmt::format(", SSIM {:.6f} (lowest window {:.4f})", d.ssim, d.lowest_ssim);
 }
 
+std::string to_text(const output::OtherInstant& other) {
+    return fmt::format("the times (column t) differ first in row {}: {:.9g} became {:.9g}", other.row + 1, other.a,
+                       other.b);
+}
+
 std::string to_text(const output::TableDifference& d) {
     std::string text;
     if (d.rows_a != d.rows_b || d.rows_compared != d.rows_a)
         text += fmt::format("rows: {} and {}, {} at common instants\n", d.rows_a, d.rows_b, d.rows_compared);
+    if (d.other_instant) text += to_text(*d.other_instant) + "\n";
     if (!d.only_in_a.empty()) text += fmt::format("columns only in the first: {}\n", names_of(d.only_in_a));
     if (!d.only_in_b.empty()) text += fmt::format("columns only in the second: {}\n", names_of(d.only_in_b));
     std::size_t same = 0;

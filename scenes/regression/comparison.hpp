@@ -40,6 +40,8 @@ PictureComparison compare(const output::Raster& a, const output::Raster& b, int 
 // "12 of 2073600 pixels (0.000579 %), largest channel difference 3 of 255, …"
 std::string to_text(const PictureComparison& comparison);
 std::string to_text(const output::TableDifference& difference);
+// "the times (column t) differ first in row 3: 0.005 became 0.006"
+std::string to_text(const output::OtherInstant& other);
 Node to_node(const PictureComparison& comparison);
 Node to_node(const output::TableDifference& difference);
 

@@ -43,7 +43,7 @@ FrameResult EntryPictures::compare(long frame, const output::Raster& actual) con
     try {
         result.comparison = scenes::compare(output::read_png(reference), actual, test_.tolerance.channel.value_or(0));
     } catch (const output::IoError&) {  // an update replaces a damaged picture
-        if (!test_.references.is_updated()) throw;
+        if (!test_.references.is_updated()) refuse_reference(reference, "it is not a readable PNG file");
         return result;
     }
     result.compared = true;

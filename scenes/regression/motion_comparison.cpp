@@ -9,6 +9,7 @@
 #include <map>
 
 #include "output/data/table_difference.hpp"
+#include "scenes/regression/comparison.hpp"
 #include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {
@@ -29,7 +30,10 @@ using Findings = std::vector<Finding>;
 
 void compare_tables(const output::ColumnTable& a, const output::ColumnTable& b, double tolerance, double horizon,
                     Findings& findings) {
-    if (const output::TableDifference whole = output::difference(a, b); !whole.same_shape())
+    const output::TableDifference whole = output::difference(a, b);
+    if (whole.other_instant)
+        findings.push_back({INFINITY, to_text(*whole.other_instant)});
+    else if (!whole.same_shape())
         findings.push_back(
             {INFINITY, fmt::format("the table has {} and {}, expected {} and {}", counted(b.rows(), "row"),
                                    counted(b.columns.size(), "column"), a.rows(), a.columns.size())});

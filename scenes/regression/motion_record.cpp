@@ -65,9 +65,7 @@ std::optional<MotionRecord> read_record(const References& references, const Reco
     const Parsed parsed = parse(output::read_file(file));
     const Member* impacts = parsed.is_json ? parsed.root.find("impacts") : nullptr;
     if (!impacts || impacts->value.kind != Node::Kind::array)
-        throw output::IoError(fmt::format(
-            "cannot read {}: it has no list of impacts, or it is damaged; restore it, or replace it with --update",
-            file.string()));
+        refuse_reference(file, "it has no list of impacts, or it is damaged");
     record.impacts = impacts->value;
     if (const Member* horizon = parsed.root.find("reproducible_until"))
         record.reproducible_until = horizon->value.number;

@@ -46,12 +46,12 @@ std::vector<std::string> references_in(const fs::path& folder) {
     return names;
 }
 
-[[noreturn]] void refuse(const fs::path& file, const std::string& why) {
+}  // namespace
+
+void refuse_reference(const fs::path& file, const char* why) {
     throw output::IoError(
         fmt::format("cannot read {}: {}; restore it, or replace it with --update", file.string(), why));
 }
-
-}  // namespace
 
 std::string picture_name(long frame) { return fmt::format("{:04}.png", frame); }
 
@@ -70,7 +70,7 @@ Digests References::digests() const {
     const Parsed parsed = parse(output::read_file(file(kDigestsFile)));
     if (parsed.root.kind != Node::Kind::object || !parsed.messages.empty()) {
         if (is_updated_) return all;
-        refuse(file(kDigestsFile), "it is not an object of digests by renderer, or it is damaged");
+        refuse_reference(file(kDigestsFile), "it is not an object of digests by renderer, or it is damaged");
     }
     for (const Member& renderer : parsed.root.members)
         for (const Node& digest : renderer.value.items) all[renderer.key].push_back(digest.text);

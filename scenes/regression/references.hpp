@@ -23,6 +23,8 @@ using Digests = std::map<std::string, std::vector<std::string>>;  // of the pixe
 
 inline constexpr const char* kDigestsFile = "digests.json";
 std::string picture_name(long frame);  // "0012.png"
+// Throws IoError: a reference cannot be read.
+[[noreturn]] void refuse_reference(const std::filesystem::path& file, const char* why);
 
 class References {
   public:

@@ -62,8 +62,10 @@ std::string problem_with_span(const FrameSpan& span, double end_time) {
     }
     const auto [first, end] = frames_between(span.from, to, fps);
     if (!(end > first))
-        return fmt::format("the film from {:g} s to {:g} s has no frame at {:g} frames a second; {}", span.from, to,
-                           fps, to > span.from ? "increase \"to\" or \"fps\"" : order_remedy(span));
+        return fmt::format(
+            "the film from {:g} s to {:g} s has no frame at {:g} frames a second; {}", span.from, to, fps,
+            to > span.from ? "show a longer interval, increase \"fps\", or reduce \"speed\" (slow motion)"
+                           : order_remedy(span));
     if (end - first > kMostFrames)
         return fmt::format(
             "{:.0f} frames are too many: an output has at most {:.0f}; use \"from\" and \"to\", or reduce \"fps\"",

@@ -1,5 +1,7 @@
 #include "output/data/file_list.hpp"
 
+#include <gmock/gmock.h>
+
 #include <chrono>
 
 #include "output/files/atomic_file.hpp"
@@ -125,6 +127,10 @@ TEST(FileList, ALinkInThePlaceOfTheListIsNotFollowed) {
     EXPECT_THROW(make(scratch / "a.csv", "made"), IoError);
     FileList::recover(scratch.path());
     EXPECT_EQ(read_file(victim / "profile"), "precious");
+    fs::remove(scratch / FileList::kFileName);
+    fs::create_directory(scratch / FileList::kFileName);
+    EXPECT_THAT([&] { make(scratch / "a.csv", "made"); },
+                ::testing::ThrowsMessage<IoError>(::testing::HasSubstr("it is no plain file; remove it")));
 }
 
 // ---- lines ---------------------------------------------------------------------------------------

@@ -101,6 +101,8 @@ TEST(CamCommand, RefusesWhatItCannotDo) {
     folder.write("law.json", scene_with(kLaw));
     EXPECT_EQ(shell(folder, "$BEAMCAM cam law.json --set cam=null").code, 3);
     EXPECT_EQ(shell(folder, "$BEAMCAM cam law.json -o cam.mp4").code, 2);
+    folder.write("disc.json", R"({"cam": {"eccentricity": 0}})");
+    EXPECT_THAT(shell(folder, "$BEAMCAM cam disc.json --beam").err, HasSubstr("see the gap_peak of `beamcam sweep"));
     const Finished undercut = shell(folder, "$BEAMCAM cam law.json --set cam.profile.lowest='5 deg'");
     EXPECT_EQ(undercut.code, 3);
     EXPECT_THAT(undercut.err, HasSubstr("undercut"));

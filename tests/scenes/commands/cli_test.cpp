@@ -152,6 +152,10 @@ TEST(CommandLine, WrongUsageIsTwo) {
     for (const auto& [arguments, message] :
          {std::pair{"figure s.json --channels theta --low 3 --high 1 -o a.pdf",
                     "beamcam: --high must be above \"low\""},
+          std::pair{"figure s.json --channels theta --log --low -1deg -o a.pdf",
+                    "beamcam: --low = \"-1deg\": the ends of a logarithmic axis must be positive"},
+          std::pair{"figure s.json energy --channels theta -o a.pdf",
+                    "beamcam: --channels: the panels of the preset energy have channels and units of their own"},
           std::pair{"render s.json --from 1 --to 0.5 -o a.mp4", "the film from 1 s to 0.5 s has no frame"},
           std::pair{"render s.json --from 1 --to 0.5 -o a.mp4", "\"to\" must be later than \"from\""},
           std::pair{"render s.json --from 30 -o a.mp4", "\"from\" must be earlier than the end of the scene"},
@@ -289,6 +293,12 @@ TEST(CommandLine, CheckReportsEveryScene) {
     EXPECT_THAT(finished.err, HasSubstr("bad.json:1:2: "));
     EXPECT_THAT(finished.err, HasSubstr("good.json: fine"));
     EXPECT_EQ(shell(folder, "$BEAMCAM check - < good.json").code, 0);
+    folder.write("short.json", R"({"time": {"end": "5 ms"}})");  // of the film that a scene without outputs yields
+    const Finished brief = shell(folder, "$BEAMCAM check short.json");
+    EXPECT_EQ(brief.code, 3);
+    EXPECT_THAT(brief.err, AllOf(HasSubstr("short.json:1:18: time.end: the film from 0 s to 0.005 s has no frame"),
+                                 HasSubstr("reduce \"speed\"")));
+    EXPECT_EQ(shell(folder, "$BEAMCAM simulate short.json").code, 0);
 }
 
 TEST(CommandLine, ASceneFromStandardInputNamesItsFilesStdin) {
@@ -328,6 +338,9 @@ TEST(CommandLine, InitWritesASceneThatIsFineAndNeverReplacesOne) {
     EXPECT_THAT(shell(folder, "$BEAMCAM plan fall.json").out, HasSubstr("fall.mp4"));
     EXPECT_EQ(shell(folder, "$BEAMCAM init fall").code, 6);
     EXPECT_EQ(shell(folder, "$BEAMCAM init fall --force").code, 0);
+    EXPECT_THAT(shell(folder, "$BEAMCAM init \"it's a\"").err, HasSubstr("`beamcam run 'it'\\''s a.json'`"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM init none/a").err,
+                ::testing::EndsWith("make the directory first or choose another one\n"));
     EXPECT_THAT(shell(folder, "$BEAMCAM init -").out, HasSubstr("\"beam\""));
 }
 

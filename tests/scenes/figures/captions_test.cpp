@@ -49,6 +49,11 @@ TEST(Captions, StateWhatAllMotionsHave) {
     EXPECT_THAT(caption, Not(HasSubstr("cam speed")));
 }
 
+TEST(Captions, OfSeveralMotionsSpeakOfWhatTheyShare) {
+    EXPECT_THAT(caption_of(R"({"time": {"end": 0.4}})", "models"),
+                HasSubstr("All parameters that the motions share have their default values."));
+}
+
 TEST(Captions, AreEnglishBesideChinesePictures) {
     EXPECT_EQ(caption_of("{}", "deflection", Lang::zh), caption_of("{}", "deflection"));
 }

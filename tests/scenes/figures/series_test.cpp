@@ -384,7 +384,7 @@ TEST(Measured, BadFilesAreReportedWithTheirPlace) {
         EXPECT_EQ(checked.code, 3);
         return checked.out + checked.err;
     };
-    EXPECT_THAT(shell(folder, "$BEAMCAM check m.json").err, HasSubstr("rig.csv\": No such file"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM check m.json").err, HasSubstr("rig.csv: No such file or directory; correct"));
     EXPECT_THAT(report("time,angle\n100,45\n200,x\n"), HasSubstr("rig.csv:3:5: \"x\" is not a number"));
     EXPECT_THAT(report("time,angle\n100,45\n90,44\n"), HasSubstr("line 3: the time does not increase"));
     EXPECT_THAT(report("time,angel\n100,45\n"), HasSubstr("the file has no column \"angle\"; did you mean \"angel\"?"));
@@ -396,7 +396,7 @@ TEST(Measured, BadFilesAreReportedWithTheirPlace) {
     folder.write("rig.csv", "time,angle\n100,45\n");
     EXPECT_THAT(shell(folder, R"(sed 's/"deg"/"mm"/' m.json > n.json; $BEAMCAM check n.json)").err,
                 HasSubstr("\"mm\" is not a unit of theta, which is measured in rad"));
-    EXPECT_THAT(shell(folder, R"(sed 's/rig.csv/./' m.json > n.json; $BEAMCAM check n.json)").err,
+    EXPECT_THAT(shell(folder, R"(mkdir d.csv; sed 's/rig.csv/d.csv/' m.json > n.json; $BEAMCAM check n.json)").err,
                 HasSubstr("not a regular file"));
 }
 

@@ -78,6 +78,8 @@ TEST(SweepKeys, AreRejectedWithTheRemedy) {
     EXPECT_THAT(only(R"({"over": [{"key": "cam.speed", "from": 1}]})"), HasSubstr("write from, to and count"));
     EXPECT_THAT(only(R"({"over": [{"key": "cam.speed", "values": ["3 mm"]}]})"), HasSubstr("rad/s"));
     EXPECT_THAT(only(R"({"over": [{"key": "cam.speed", "from": 1, "to": 2, "count": 1}]})"), HasSubstr("one value"));
+    EXPECT_THAT(only(R"({"over": [{"key": "cam.speed", "from": 2, "to": 2, "count": 3}]})"), HasSubstr("equal values"));
+    EXPECT_THAT(only(R"({"over": [{"key": "cam.speed", "values": [50, 40, 50]}]})"), HasSubstr("values: equal"));
     EXPECT_THAT(only(R"({"over": [{"key": "cam.speed", "from": -1, "to": 2, "count": 4, "spacing": "log"}]})"),
                 HasSubstr("one sign"));
     EXPECT_THAT(only(std::string(R"({"over": [)") + kSpeed + "," + kSpeed + "]}"), HasSubstr("listed twice"));

@@ -19,7 +19,8 @@ TEST(Diff, RejectsWhatIsNoPictureWithSix) {
     folder.write("empty.png", "");
     folder.write("text.png", "no picture");
     folder.write("film.mp4", "no picture");
-    for (const char* file : {"empty.png", "text.png", "film.mp4", "absent.png", ".", "/dev/null", "$'\\xff\\xfe.png'"}) {
+    for (const char* file :
+         {"empty.png", "text.png", "film.mp4", "absent.png", ".", "/dev/null", "$'\\xff\\xfe.png'"}) {
         const Finished finished = shell(folder, std::string("$BEAMCAM diff ") + file + " " + file);
         EXPECT_EQ(finished.code, 6) << file << finished.err;
         EXPECT_THAT(finished.err, StartsWith("beamcam: ")) << file;
@@ -45,6 +46,7 @@ TEST(Diff, EndsWithZeroForTheSameAndSevenForOthers) {
     EXPECT_EQ(shell(folder, "$BEAMCAM diff f-02.png f-02.png").code, 0);
     const Finished differs = shell(folder, "$BEAMCAM diff f-02.png f-03.png -o d.png");
     EXPECT_EQ(differs.code, 7) << differs.err;
+    EXPECT_EQ(shell(folder, "$BEAMCAM diff f-02.png f-03.png -o ./f-03.png").code, 2);
     EXPECT_THAT(differs.out, HasSubstr("different"));
     EXPECT_THAT(differs.out, HasSubstr("largest channel difference"));
     EXPECT_THAT(differs.err, HasSubstr("wrote d.png"));
@@ -82,6 +84,10 @@ TEST(Diff, ComparesTablesOfBothFormats) {
     EXPECT_EQ(shell(folder, "$BEAMCAM diff a.csv b.csv --tolerance 1e-2").code, 0);
     EXPECT_EQ(shell(folder, "$BEAMCAM diff a.csv b.csv --tolerance 1e-6").code, 7);
     EXPECT_EQ(shell(folder, "$BEAMCAM diff a.csv s.json").code, 2);
+    folder.write("late.csv", "t,theta\n0,1\n0.5,1\n");
+    folder.write("later.csv", "t,theta\n0,1\n0.6,1\n");
+    EXPECT_THAT(shell(folder, "$BEAMCAM diff late.csv later.csv").out,
+                HasSubstr("the times (column t) differ first in row 2: 0.5 became 0.6"));
     folder.write("bad.csv", "t,theta\n0\n");
     const Finished bad = shell(folder, "$BEAMCAM diff a.csv bad.csv");
     EXPECT_EQ(bad.code, 6);

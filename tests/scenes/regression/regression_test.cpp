@@ -220,7 +220,7 @@ TEST(Regression, DamagedReferencesAreErrorsNotVerdicts) {
     folder.write("b/fall/0000.png", png.substr(0, png.size() / 2));
     const Finished cut = shell(folder, "$BEAMCAM test b.json --filter fall");
     EXPECT_EQ(cut.code, 6);
-    EXPECT_THAT(cut.out, HasSubstr("b/fall/0000.png"));
+    EXPECT_THAT(cut.out, HasSubstr("b/fall/0000.png: it is not a readable PNG file; restore it, or replace it with"));
     folder.write("b/fall/0000.png", png);
     folder.write("b/fall/motion.csv", "t,theta\n0,zero\n");
     const Finished table = shell(folder, "$BEAMCAM test b.json --filter fall");
@@ -292,6 +292,9 @@ TEST(Regression, AMotionThatIsNotTheReferenceFails) {
     const Finished finished = shell(folder, "$BEAMCAM test b.json --filter motion");
     EXPECT_EQ(finished.code, 7);
     EXPECT_THAT(finished.out, AllOf(HasSubstr("motion different: "), HasSubstr("impacts.0.")));
+    folder.swap("b/motion/motion.csv", "\n0.02,", "\n0.03,");
+    EXPECT_THAT(shell(folder, "$BEAMCAM test b.json --filter motion").out,
+                HasSubstr("the times (column t) differ first in row 2: 0.03 became 0.02"));
 }
 
 // ---- one entry's misfortune --------------------------------------------------------------------------
