@@ -169,7 +169,7 @@ UnitText unit_in(std::string text, const Dimension* expected) {
     std::string_view rest = text;
     for (bool divides = false, divided = false;;) {
         const std::size_t end = std::min(rest.find_first_of(" */"), rest.size());
-        const UnitText factor = factor_in(rest.substr(0, end), expected);
+        UnitText factor = factor_in(rest.substr(0, end), expected);
         if (!factor.unit) return factor;
         multiply(product, *factor.unit, divides ? -1 : 1);
         rest.remove_prefix(end);

@@ -78,7 +78,7 @@ void EntryPictures::report_pictures(long frame, const output::Raster& actual, Fr
 }
 
 fs::path EntryPictures::write(long frame, const char* kind, const output::Raster& picture) const {
-    const fs::path path = *test_.report / report_picture(test_.entry.name, frame, kind);
+    fs::path path = *test_.report / report_picture(test_.entry.name, frame, kind);
     output::require_within(path, *test_.report);
     output::ensure_directory(path.parent_path());
     output::FileTarget target = test_.report_files.target(path);

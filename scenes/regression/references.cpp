@@ -55,8 +55,8 @@ void refuse_reference(const fs::path& file, const char* why) {
 
 std::string picture_name(long frame) { return fmt::format("{:04}.png", frame); }
 
-References::References(fs::path folder, std::string entry, bool is_updated)
-    : folder_(std::move(folder) / entry), is_updated_(is_updated) {}
+References::References(const fs::path& folder, const std::string& entry, bool is_updated)
+    : folder_(folder / entry), is_updated_(is_updated) {}
 
 bool References::has(const std::string& name) const { return output::path_exists(file(name)); }
 

@@ -29,7 +29,7 @@ std::string picture_name(long frame);  // "0012.png"
 class References {
   public:
     // `folder`: of all entries. `is_updated`: the test replaces the references; damaged ones are then no error.
-    References(std::filesystem::path folder, std::string entry, bool is_updated);
+    References(const std::filesystem::path& folder, const std::string& entry, bool is_updated);
 
     std::filesystem::path file(const std::string& name) const { return folder_ / name; }
     bool has(const std::string& name) const;
