@@ -151,18 +151,17 @@ void PanelNames::draw_labels_beside(const Plot& plot) const {
     for (const std::string& line : right_.lines) sheet_.text({x, box.centre().y}, line, l), x += step;
 }
 
-// The line of the curves of an axis, in their colour if they have one, before the axis's name, whose baseline has its
-// middle here.
+// The line of the curves of an axis, if they have one colour, before the axis's name, whose baseline has its middle
+// here.
 void PanelNames::draw_key_of_axis(bool right, const std::string& first_line, Vec2 middle) const {
     const auto is_of_axis = [&](const Series& s) { return s.right == right && s.line; };
     const auto first = std::ranges::find_if(panel_.series, is_of_axis);
     if (first == panel_.series.end() || first_line.empty()) return;
-    Series key = *first;
     for (const Series& s : panel_.series)
-        if (is_of_axis(s) && color_of(s) != color_of(*first)) key.color = kInk;
+        if (is_of_axis(s) && color_of(s) != color_of(*first)) return;
     const double from = middle.y + 0.5 * sheet_.measure(first_line, style_.words()).w + 2 * style_.gap,
                  x = middle.x - 0.5 * sheet_.cap_height(style_.letters);
-    draw_sample(sheet_, style_, key, {x, from + kSampleLength * style_.letters}, {x, from});
+    draw_sample(sheet_, style_, *first, {x, from + kSampleLength * style_.letters}, {x, from});
 }
 
 void PanelNames::draw_common_factors(const Plot& plot) const {

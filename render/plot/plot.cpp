@@ -33,10 +33,9 @@ Extents extents_of(const Panel& panel) {
     return all;
 }
 
-// Where both axes show zero, it is at the same height.
+// Where both axes have values of both signs, zero is at the same height.
 void align_zeros(Extent& left, Extent& right) {
-    const auto shows_zero = [](const Extent& e) { return e.low <= 0 && e.high >= 0 && e.low < e.high; };
-    if (!shows_zero(left) || !shows_zero(right)) return;
+    if (!(left.low < 0 && left.high > 0 && right.low < 0 && right.high > 0)) return;
     const double a = std::max(-left.low, left.high), b = std::max(-right.low, right.high);
     left.low = std::min(left.low, right.low / b * a), left.high = std::max(left.high, right.high / b * a);
     right.low = left.low / a * b, right.high = left.high / a * b;

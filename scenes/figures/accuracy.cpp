@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "render/base/error.hpp"
 #include "scenes/figures/command_figures.hpp"
@@ -13,7 +12,6 @@ namespace {
 using render::Axis;
 using render::Scale;
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kTime = "run time / ms";
 
 // The angle that the errors are of.
@@ -23,19 +21,14 @@ std::string error_label(const sim::Accuracy& a, Lang lang) { return phrase(lang,
 // A logarithmic axis has no zero: an error below that of the reference is drawn at the latter.
 double visible(double error, const sim::Accuracy& a) { return std::max(error, a.reference_error); }
 
-// The points of one method and, behind them, the range of the repeated timings.
+// The points of one method, at the median of the repeated timings.
 void add_method(Panel& panel, const sim::Accuracy& a, sim::Method method, int look) {
-    Series points{.label = sim::name(method), .look = look, .every_point = true},
-        spread{.name = points.label + ", range of run time", .look = look, .solid = true, .weight = 0.6};
+    Series points{.label = sim::name(method), .look = look, .every_point = true};
     for (const sim::WorkRow& row : a.work) {
         if (row.method != method || !row.error || row.time.repeats == 0) continue;
-        const double error = visible(*row.error, a);
-        points.add(1e3 * row.time.median, error);
-        for (const double seconds : {row.time.low, row.time.high, kNone}) spread.add(1e3 * seconds, error);
+        points.add(1e3 * row.time.median, visible(*row.error, a));
     }
-    if (points.x.empty()) return;
-    panel.series.push_back(std::move(spread));
-    panel.series.push_back(std::move(points));
+    if (!points.x.empty()) panel.series.push_back(std::move(points));
 }
 
 Panel work_precision(const sim::Accuracy& a, Lang lang) {

@@ -48,9 +48,6 @@ class CamDrawing {
         }
         if (problem.cam->profile)
             if (const auto* law = std::get_if<sim::LawProfile>(&*problem.cam->profile)) name_segments(*law);
-        if (jumps())
-            names_.emplace_back(lever_.at(summary_.jump->phi).alpha,
-                                fmt::format("jump {:.4g} rpm", summary_.jump->speed * 30 / std::numbers::pi));
         for (const auto& [alpha, name] : names_) {
             const Vec2 n = sim::unit(alpha);
             const double wide = 1.6 + 0.55 * static_cast<double>(name.size());
@@ -61,7 +58,7 @@ class CamDrawing {
 
     render::figure::Paper paper() const {
         const render::Box box = bounds_.box();
-        constexpr double kDimensions = 5 * kLetters;  // below the drawing
+        constexpr double kDimensions = 6.6 * kLetters;  // below the drawing
         return {box.w * kPointsPerMetre + 2 * kMargin, box.h * kPointsPerMetre + 2 * kMargin + kDimensions};
     }
 
@@ -74,13 +71,13 @@ class CamDrawing {
         draw_sharpest_place();
         draw_lever();
         draw_names();
+        draw_jump();
         draw_rotation();
         draw_pivot();
     }
 
   private:
     Vec2 place(double alpha) const { return shape_.at(alpha).position(alpha); }
-    bool jumps() const { return summary_.jump && summary_.jump->speed > 0; }
     // In the middle of each segment; a dwell at both ends of the turn is one.
     void name_segments(const sim::LawProfile& law) {
         std::vector<sim::ProgrammedMotion::Segment> all = sim::ProgrammedMotion(law).segments();
@@ -166,8 +163,7 @@ class CamDrawing {
                    .turned = -std::atan(along.y / along.x)});
     }
 
-    // Beside the outline: of the segments, and of the place where the straight lever leaves the cam at its jump speed.
-    // Those near the lever are within the cam.
+    // Of the segments, beside the outline; those near the lever are within the cam.
     void draw_names() {
         for (const auto& [alpha, name] : names_) {
             const bool within = std::cos(alpha - lever_.at(0).alpha) > std::numbers::sqrt2 / 2;
@@ -175,9 +171,16 @@ class CamDrawing {
             label(at(place(alpha)) + 1.6 * kLetters * beside, name,
                   beside.x < 0 ? render::HAlign::right : render::HAlign::left, within ? kFill : kWhite);
         }
-        if (!jumps()) return;
-        to_->circle(at(place(names_.back().first)), points(0.7));
+    }
+
+    // The place where the straight lever leaves the cam at its jump speed; the speed is in the last line.
+    void draw_jump() {
+        if (!summary_.jump || !(summary_.jump->speed > 0)) return;
+        to_->circle(at(place(lever_.at(summary_.jump->phi).alpha)), points(0.7));
         to_->fill(kBlack);
+        label({kMargin, at({0, bounds_.y0}).y + 6.2 * kLetters},
+              fmt::format("jump at the dot: {:.4g} rpm", summary_.jump->speed * 30 / std::numbers::pi),
+              render::HAlign::left);
     }
 
     void draw_rotation() {
@@ -224,7 +227,7 @@ class CamDrawing {
     const sim::Lever::Summary summary_ = lever_.summary();
     std::vector<Vec2> outline_;
     std::vector<Vec2> face_;  // of the lever, from its root to where it is cut; empty: no lever reaches the cam
-    std::vector<std::pair<double, std::string>> names_;  // beside the outline's normal [rad]; that of the jump is last
+    std::vector<std::pair<double, std::string>> names_;  // of segments, beside the outline's normal [rad]
     Vec2 pivot_;
     double base_ = 0;   // radius of the base circle [m]
     double speed_ = 0;  // of the cam [rad/s]

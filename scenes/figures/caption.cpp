@@ -15,20 +15,24 @@ namespace {
 
 constexpr std::array kPaperSpeeds{0.0, 1.0, 5.0};  // of the cam in the paper's figure 6 [rad/s]
 
-// A value in the text of a caption; a longer one, such as a table of a drive, is shortened.
+// A value in the text of a caption.
 std::string caption_value(const Node& value) {
-    constexpr std::size_t kMostItems = 4;
     if (value.kind == Node::Kind::number) return number(value.number, 6);
     if (value.kind == Node::Kind::string) return render::escaped(value.text);
     if (value.kind != Node::Kind::array) return render::escaped(one_line(value));
     std::vector<std::string> items;
-    for (const Node& item : value.items)
-        if (items.size() < kMostItems) items.push_back(caption_value(item));
-    if (value.items.size() > kMostItems) items.push_back("…");
+    for (const Node& item : value.items) items.push_back(caption_value(item));
     return fmt::format("[{}]", fmt::join(items, ", "));
 }
 
-// "cam speed = 0" or "no cam" of each key whose value is not that of `usual`.
+// Lists of more than four items, or of other items than numbers, have no value in a caption.
+bool is_long(const Node& value) {
+    return value.kind == Node::Kind::array &&
+           (value.items.size() > 4 ||
+            !std::ranges::all_of(value.items, [](const Node& item) { return item.kind == Node::Kind::number; }));
+}
+
+// "cam speed = 0", "no cam" or "own cam profile segments" of each key whose value is not that of `usual`.
 void add_differences(const Node& node, const Node* usual, const std::string& path, std::vector<std::string>& out) {
     if (node.kind == Node::Kind::object) {
         for (const Member& member : node.members)
@@ -39,6 +43,7 @@ void add_differences(const Node& node, const Node* usual, const std::string& pat
         for (char& c : words)
             if (c == '.' || c == '_') c = ' ';
         out.push_back(node.kind == Node::Kind::null ? "no " + words
+                      : is_long(node)               ? "own " + words
                                                     : fmt::format("{} = {}", words, caption_value(node)));
     }
 }

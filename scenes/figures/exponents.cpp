@@ -24,14 +24,15 @@ std::string value_text(const sim::Exponents& e, std::size_t i) {
                        render::fixed(e.error[i], decimals));
 }
 
-Panel panel_of(const sim::Exponents& e, std::size_t shown, Lang lang) {
+// Of the exponents from `first` to before `last`.
+Panel panel_of(const sim::Exponents& e, std::size_t first, std::size_t last, Lang lang) {
     Panel panel{.x = {.label = phrase(lang, "averaged over $t$ / s"), .tight = true},
                 .y = {.label = "$λ$ / s^{−1}"},
                 .rules = {{.at = 0}},
                 .name = "exponents"};
     // The first averages, over less than a tenth of the duration, are of the start.
     const auto begin = std::ranges::lower_bound(e.time, 0.1 * e.duration) - e.time.begin();
-    for (std::size_t i = 0; i < shown; ++i) {
+    for (std::size_t i = first; i < last; ++i) {
         if (!std::isfinite(e.lambda[i])) continue;
         const int look = static_cast<int>(i);
         panel.series.push_back({.label = value_text(e, i),
@@ -52,19 +53,19 @@ Panel panel_of(const sim::Exponents& e, std::size_t shown, Lang lang) {
 
 render::figure::Figure exponents_figure(const sim::Exponents& e, const Subject& subject) {
     const Lang lang = subject.lang;
-    std::vector<Panel> panels{panel_of(e, e.lambda.size(), lang)};
-    if (panels[0].series.empty())
+    // The largest one is apart, since the others may be far below it.
+    std::vector<Panel> panels{panel_of(e, 0, 1, lang), panel_of(e, 1, e.lambda.size(), lang)};
+    std::erase_if(panels, [](const Panel& panel) { return panel.series.empty(); });
+    if (panels.empty())
         throw render::PictureError(
             "exponents: all are −∞, because sustained contact removes every difference; there is nothing to draw");
-    // The largest one also alone, since the others may be far below zero.
-    const bool both = panels[0].series.size() > 1 && std::isfinite(e.lambda[0]);
-    if (both) panels.insert(panels.begin(), panel_of(e, 1, lang));
+    const double aspect = panels.size() > 1 ? 1.2 : 0.66;
     render::figure::Figure figure{
         .name = "exponents",
         .title = fmt::format("Convergence of the Lyapunov exponents over {} s with {} impacts", number(e.duration, 4),
                              e.impacts),
         .panels = lettered(std::move(panels)),
-        .aspect = both ? 1.2 : 0.66};
+        .aspect = aspect};
     add_caption(figure, std::vector{subject.problem});
     figure.accuracy = "Errors, which are the bands, are standard errors of block averages.";
     return figure;

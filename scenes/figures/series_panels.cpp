@@ -199,9 +199,8 @@ class SeriesPanelMaker {
     }
 
     // Paler where θ is not reproducible. Forces are solid: gaps of dashes would hide their short peaks. With two axes
-    // all curves are, and those that are zero throughout are omitted beside others.
+    // all curves are.
     void add_curve(const Side& side, std::size_t i) {
-        if (panel_.right && is_zero(side.rows[i]) && !std::ranges::all_of(side.rows, is_zero)) return;
         const SeriesMotion& motion = plan_.motions[side.curves[i].motion];
         const std::size_t shown = planned_.motions.size();
         const std::string& symbol = side.symbols[i / shown];

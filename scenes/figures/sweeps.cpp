@@ -1,6 +1,7 @@
 #include "scenes/figures/sweeps.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -191,7 +192,7 @@ extern const FigureType kPeaks{
 extern const FigureType kBasins{
     .name = "basins", .title = "Basins of attraction", .refusal = needs_two_starts, .draw = key_map, .keys = {"value"}};
 extern const FigureType kMap{
-    .name = "map", .title = "Map of two keys", .refusal = needs_two_keys, .draw = key_map, .keys = {"value"}};
+    .name = "map", .title = "Map of motions", .refusal = needs_two_keys, .draw = key_map, .keys = {"value"}};
 extern const FigureType kPoincare{
     .name = "poincare", .title = "Poincaré section", .refusal = needs_sweep, .draw = draw_poincare};
 extern const FigureType kImpactMap{
@@ -202,7 +203,9 @@ FigureDrawing swept_figure(const FigureType& type, const FigureOutput& how) {
         if (!results.sweep) throw std::logic_error("a figure of a sweep without its points");
         const SweptPoints points(*results.sweep, how.lang);
         figure::Figure out = type.draw(points, how);
-        out.title = fmt::format("{} over {}", type.title, render::escaped(points.axis(0).name));
+        std::vector<std::string> keys;
+        for (const output::SweepAxis& axis : points.axes()) keys.push_back(render::escaped(axis.name));
+        out.title = fmt::format("{} over {}", type.title, fmt::join(keys, " and "));
         add_caption(out, problems_at_ends(points));
         out.accuracy = tolerance_text(points);
         return out;

@@ -109,7 +109,7 @@ TEST(Diagram, LeavesOutOfItsCaptionWhatTheSweepVaries) {
         R"({"over": [{"key": "cam.eccentricity", "values": [1e-3, 3e-3]}, {"key": "gravity", "values": [9.81]}],
             "sample": "apexes", "seed": {"random": 5}})");
     const auto figure = diagram("map", swept, data(swept, {periodic}), "class");
-    EXPECT_EQ(figure.title, "Map of two keys over cam.eccentricity");
+    EXPECT_EQ(figure.title, "Map of motions over cam.eccentricity and gravity");
     for (const char* key : {"eccentricity", "initial."}) EXPECT_THAT(figure.caption, Not(HasSubstr(key)));
 }
 
