@@ -232,7 +232,7 @@ void SampleRecorder::finish() {
 // The rows are in the order of time. An adaptive table keeps one row of each instant, or both sides of a jump.
 std::vector<std::size_t> SampleRecorder::kept_rows(std::size_t i, const std::vector<double>& times,
                                                    const std::vector<std::vector<double>>& values) const {
-    const std::vector<std::size_t> order = ascending(times).order;
+    std::vector<std::size_t> order = ascending(times).order;
     if (!request_.tables[i].adaptive) return order;
     const auto point = [&](std::size_t row) {
         ChannelPoint out{times[row]};

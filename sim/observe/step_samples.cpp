@@ -176,9 +176,9 @@ void StepSamples::sample_part(const Instants& part, const NeedsMore& needs_more,
         if (frequency < 0) frequency = fastest(part);
         const Needs needs = needs_of(sampled_);
         const double length = part[k + 1] - part[k], rate = needs.squared ? 2 * frequency : frequency;
-        const double pieces = std::min(std::ceil(kSamplesPerRadian * rate * length), kMostSamples);
-        for (double j = 1; j < pieces; ++j) {
-            const double t = part[k] + length * (j / pieces);
+        const int pieces = static_cast<int>(std::min(kMostSamples, std::ceil(kSamplesPerRadian * rate * length)));
+        for (int j = 1; j < pieces; ++j) {
+            const double t = part[k] + length * j / pieces;
             place(t, needs);
             for (const std::size_t c : sampled_) {
                 series_[c].t.push_back(t);
