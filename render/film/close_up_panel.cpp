@@ -113,12 +113,14 @@ class CloseUpPanel final : public FilmPanel {
         const double left = plot_.w - std::max(w, canvas.measure(length, note).w) - 20 * u;
         const double stretch = (plot_.h / (shown_.high - shown_.low)) / (plot_.w / (2 * half_width_));
         const double digit = ten_to(static_cast<int>(std::floor(std::log10(stretch))));  // one is enough
-        const std::string whole =
-                              context_.look.translate(fmt::format("heights in {}m, ×{} against widths", unit_.symbol,
-                                                                  power_text(std::round(stretch / digit) * digit))),
-                          brief = context_.look.translate(fmt::format("heights in {}m", unit_.symbol));
-        canvas.text({plot_.x, y - 3 * u + context_.look.letters.words},
-                    first_that_fits(canvas, {whole, brief, fmt::format("{}m", unit_.symbol), ""}, note, left), note);
+        const std::string brief =
+            fmt::format("heights in {}m, ×{}", unit_.symbol, power_text(std::round(stretch / digit) * digit));
+        const auto translate = [&](std::string text) { return context_.look.translate(std::move(text)); };
+        const std::string unit = fmt::format("{}m", unit_.symbol);
+        canvas.text(
+            {plot_.x, y - 3 * u + context_.look.letters.words},
+            first_that_fits(canvas, {translate(brief + " against widths"), translate(brief), unit, ""}, note, left),
+            note);
     }
 
     // Fills the area between the line and this height [px].

@@ -35,8 +35,8 @@ void CloseUpReadings::draw(Canvas& canvas, const sim::Pose& pose, double face) c
     const double u = context.look.unit;
     const bool deep = near.gap < 0;
     const double size = std::abs(near.gap);
-    const std::string amount = size < 1e-3 * unit.factor          ? quantity(0, unit, "m", 1)
-                               : unit.factor != 1e-6 || size >= 1 ? quantity(size, "m")
+    const std::string amount = size < (unit.factor == 1e-6 ? 0.05 : 1e-3) * unit.factor ? quantity(0, unit, "m", 1)
+                               : unit.factor != 1e-6 || size >= 1                       ? quantity(size, "m")
                                : size < 1e-3 ? fmt::format("{}\u00A0µm", fixed(size * 1e6, size < 1e-5 ? 1 : 0))
                                              : fmt::format("{}\u00A0mm", fixed(size * 1e3, size < 0.1 ? 1 : 0));
     draw_reading(

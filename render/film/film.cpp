@@ -7,13 +7,13 @@
 #include <utility>
 
 #include "render/draw/dirty_tiles.hpp"
-#include "render/draw/markup.hpp"
 #include "render/film/caption_band.hpp"
 #include "render/film/clock_line.hpp"
 #include "render/film/color_bars.hpp"
 #include "render/film/mechanism_panel.hpp"
 #include "render/film/panel.hpp"
 #include "render/film/parameter_line.hpp"
+#include "render/plot/user_text.hpp"
 
 namespace beamcam::render {
 
@@ -108,7 +108,7 @@ bool Film::Prepared::draw_header(Canvas& canvas) const {
     for (const ParameterLine::Piece& piece : line.pieces)
         canvas.text(piece.baseline, piece.markup, {.size = line.size, .color = context.look.palette.muted});
     if (const auto& b = places.warning; b && !setup.warning.empty())
-        canvas.text({b->right(), b->y + 19 * u}, escaped(context.look.translate(setup.warning)),
+        canvas.text({b->right(), b->y + 19 * u}, text_markup(context.look.translate(setup.warning)),
                     {.size = context.look.letters.words,
                      .color = context.look.palette.muted,
                      .align = HAlign::right,

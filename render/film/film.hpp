@@ -113,6 +113,7 @@ struct Units {
 
 struct FilmSetup : Motion {
     std::string title;                // plain text; cut before an ellipsis if too long
+    double scene_end = 0;             // chooses the unit of a still's clock [s]
     int width = 1920, height = 1080;  // [px], 1…16384
     View view;
     Units units;
@@ -125,7 +126,7 @@ struct FilmSetup : Motion {
     bool slow_motion = false;       // the standard layout shows collisions one by one
     std::vector<Callout> callouts;
     std::vector<FilmData> data;
-    std::string warning;  // plain text in the corner; may be empty
+    std::string warning;  // in the corner, plain text with formulas; may be empty
 };
 
 // The panels that the standard layout shows beside the mechanism.

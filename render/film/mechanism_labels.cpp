@@ -66,15 +66,24 @@ std::optional<double> arc_radius(const MechanismView& home) {
     return radius >= least ? std::optional(radius) : std::nullopt;
 }
 
-// The letter is on the bisector, or as far from the beam as it needs. With the cam on the beam's other side, the arc
-// has the radius at which the letter has room between beam and horizontal.
+// The direction, near θ, of the beam's drawn line at this distance from the axis [m], or of its tip.
+static double line_angle(const MechanismScene& s, double distance) {
+    const std::vector<Vec2>& line = s.beam.line;
+    const auto beyond = std::ranges::find_if(line, [&](Vec2 p) { return norm(p) >= distance; });
+    const Vec2 p = beyond == line.end() ? line.back() : *beyond;
+    return drawn_angle(s.pose) + std::remainder(std::atan2(p.y, p.x) - s.pose.theta, 2 * pi);
+}
+
+// The arc ends at the beam. The letter is on the bisector, or as far from the beam as it needs. With the cam on the
+// beam's other side, the arc has the radius at which the letter has room between beam and horizontal.
 void draw_angle(const MechanismScene& s) {
     if (!s.at.labelled() || !s.at.arc_radius) return;
-    const double angle = drawn_angle(s.pose), way = angle < 0 ? -1 : 1, size = letter_size(s.at);
+    double angle = drawn_angle(s.pose), radius = *s.at.arc_radius * s.at.zoom();
+    const double way = angle < 0 ? -1 : 1, size = letter_size(s.at);
     const double edge = (angle > 0 ? -s.beam.low : s.beam.high) * s.at.look.camera.scale;  // of the beam below its line
-    double radius = *s.at.arc_radius * s.at.zoom();
     if (way * s.beam.side < 0)
         radius = std::max(radius, std::min(longest_arc(s.at), (edge + 1.4 * size) / std::abs(angle) - 0.8 * size));
+    angle = way * std::max(0.0, way * line_angle(s, radius / s.at.look.camera.scale));
     const double visible = std::abs(angle) - std::asin(std::clamp(edge / radius, 0.0, 1.0));
     if (visible * radius < 3 * s.at.unit) return;
     const Vec2 o = s.at.px({0, 0});
@@ -92,8 +101,9 @@ void draw_angle(const MechanismScene& s) {
 
 // ---- ω -----------------------------------------------------------------------------------------
 
-// The arrow is outside the circle that the disc sweeps, on the side away from the beam; where a bracket is there, and
-// in the solid view, it is on the face of the disc. Positive speed is clockwise.
+// The arrow is outside the circle that the disc sweeps, on the side away from the beam, in the plane of the disc's
+// front or back that is farther out there; where a bracket is there, it is on the face of the disc. Positive speed is
+// clockwise.
 void draw_cam_speed(const MechanismScene& s) {
     const std::optional<sim::Cam>& cam = s.at.problem().cam;
     if (!cam || cam->speed == 0 || !s.at.labelled()) return;
@@ -107,24 +117,27 @@ void draw_cam_speed(const MechanismScene& s) {
             return at.y > each.shaft.y && std::abs(at.x - each.shaft.x) < each.foot + 2 * u;
         });
     };
-    const bool on_face = s.view || behind(middle - 0.4) || behind(middle) || behind(middle + 0.4);
+    const bool on_face = behind(middle - 0.4) || behind(middle) || behind(middle + 0.4);
     const double radius = on_face ? 0.45 * reach : reach + 20 * u;
     const Color color = on_face ? ink_on_disc(s) : s.at.palette.muted;
     const double half = std::min(on_face ? 1.4 : 0.8, 150 * u / radius) / 2, head = 17 * u;
     const double from = middle + (cam->speed > 0 ? half : -half), to = 2 * middle - from;
     const double back = (to < from ? 1 : -1) * 0.9 * head / radius;
-    const Vec2 on_arc = s.on(axis + down(middle) * radius);
+    const auto out = [&](double depth) { return norm(s.on(axis + down(middle) * radius, depth) - s.on(axis, 0)); };
+    const double depth = on_face || out(kDiscDepth) > out(-kDiscDepth) ? kDiscDepth : -kDiscDepth;
+    const auto at = [&](double angle, double r) { return s.on(axis + down(angle) * r, depth); };
+    const Vec2 on_arc = at(middle, radius);
     if (!s.at.shows(on_arc) || radius < 2 * head) return;
-    const Vec2 tip = s.on(axis + down(to) * radius);
-    Vec2 along = tip - s.on(axis + down(to + back) * radius);
+    const Vec2 tip = at(to, radius);
+    Vec2 along = tip - at(to + back, radius);
     // Seen from aside, the head keeps its length.
     if (const double length = norm(along); s.view && length > 0)
         along = along * (std::max(0.9 * head, length) / length);
     const auto draw = [&] {
-        s.arc(axis, radius, from, to + back);
+        s.arc(axis, radius, from, to + back, depth);
         s.canvas.stroke({color, 2.6 * u, {}, Cap::butt});
         s.canvas.arrow(tip - along, tip, {color, 2.6 * u}, {head});
-        draw_letter(s, on_arc, s.on(axis + down(middle) * (radius + 22 * u)), "$ω$", color, !on_face);
+        draw_letter(s, on_arc, at(middle, radius + 22 * u), "$ω$", color, !on_face);
     };
     on_face ? s.canvas.without_halo(draw) : draw();
 }

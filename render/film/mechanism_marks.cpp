@@ -21,14 +21,18 @@ static void name_base_line(const MechanismScene& s, const std::vector<Vec2>& lin
     for (std::size_t i = 0; i < line.size(); ++i)
         if (!std::isnan(line[i].x) && inside.contains({line[i].x, line[i].y, 0, 0})) last = i;
     if (last == line.size()) return;
-    // Towards the hub, above a line that rises from there or below one that falls, if the beam is on the other side.
+    // Above a line that rises from the hub or below one that falls, and towards the hub; where the beam is there, on
+    // the other side and away from the hub, if that is in the view.
     const auto [upper, lower] = std::minmax({s.px(s.beam.back(last)).y, s.px(s.beam.face(last)).y});
     const Vec2 o = s.at.px({0, 0});
     const bool above = line[last].y < o.y, leftward = line[last].x < o.x;
-    if (above ? upper < line[last].y + 0.2 * size : lower > line[last].y - 0.2 * size) return;
-    s.canvas.text(line[last] + Vec2{(leftward ? 0.4 : -0.4) * size, (above ? -0.5 : 1.2) * size},
-                  s.at.context.look.translate("undeflected"),
-                  {.size = size, .color = s.at.palette.muted, .align = leftward ? HAlign::left : HAlign::right});
+    const bool free = above ? upper >= line[last].y + 0.2 * size : lower <= line[last].y - 0.2 * size;
+    const bool rightward = leftward == free;  // the text begins at the line
+    const TextStyle style{.size = size, .color = s.at.palette.muted, .align = rightward ? HAlign::left : HAlign::right};
+    const std::string word = s.at.context.look.translate("undeflected");
+    const Vec2 at = line[last] + Vec2{(rightward ? 0.4 : -0.4) * size, (above == free ? -0.5 : 1.2) * size};
+    const double end = at.x + (rightward ? 1 : -1) * s.canvas.measure(word, style).w;
+    if (free || (end > s.at.box.x && end < s.at.box.right())) s.canvas.text(at, word, style);
 }
 
 // The base line of the exaggerated deflection.

@@ -71,11 +71,12 @@ DrawnPose MechanismView::drawn_pose(int whose, sim::Pose pose) const {
     return {std::move(pose), std::move(beam), std::move(shape)};
 }
 
-void MechanismScene::arc(Vec2 centre, double radius, double from, double to) const {
+void MechanismScene::arc(Vec2 centre, double radius, double from, double to, double depth) const {
     if (!view) return canvas.arc(centre, radius, from, to);
     constexpr int kPieces = 48;
     std::vector<Vec2> points;
-    for (int i = 0; i <= kPieces; ++i) points.push_back(on(centre + down(from + (to - from) * i / kPieces) * radius));
+    for (int i = 0; i <= kPieces; ++i)
+        points.push_back(on(centre + down(from + (to - from) * i / kPieces) * radius, depth));
     canvas.polyline(points);
 }
 

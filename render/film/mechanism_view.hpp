@@ -75,10 +75,10 @@ struct MechanismScene {
     const MechanismView& at;
     const Projection* view;  // of the solid view; null: flat or lit
 
-    Vec2 on(Vec2 flat) const { return at.seen(flat, view); }
-    Vec2 on_disc(Vec2 flat) const { return at.seen(flat, view, kDiscDepth); }
+    Vec2 on(Vec2 flat, double depth = 0.5) const { return at.seen(flat, view, depth); }
+    Vec2 on_disc(Vec2 flat) const { return on(flat, kDiscDepth); }
     Vec2 px(Vec2 world) const { return on(at.px(world)); }
-    void arc(Vec2 flat_centre, double radius, double from, double to) const;
+    void arc(Vec2 flat_centre, double radius, double from, double to, double depth = 0.5) const;
 };
 
 }  // namespace beamcam::render

@@ -20,9 +20,12 @@ using sim::Channel;
 using sim::ChannelKind;
 using sim::Pose;
 
+bool is_impulsive(const Motion& motion) { return motion.problem.contact.model == sim::ContactModel::restitution; }
+
+// A film that ends where impulses become a lasting contact has a force only in its last row.
 bool has_force(const Motion& motion) {
     const auto* force = column(motion.chart, {ChannelKind::contact_force, 0});
-    return force && std::ranges::any_of(*force, [](double v) { return v > 0; });
+    return force && std::ranges::count_if(*force, [](double v) { return v > 0; }) > (is_impulsive(motion) ? 1 : 0);
 }
 
 std::vector<PanelSpec> standard(const FilmSetup& setup) {
@@ -36,13 +39,12 @@ std::vector<PanelSpec> standard(const FilmSetup& setup) {
     const bool in_contact =
         setup.frames() == 1 && setup.others.empty() && setup.pose(0).nearest && setup.pose(0).nearest->force > 0;
     std::vector<PanelSpec> specs = standard_panels(shown->problem, setup.slow_motion || in_contact);
-    const bool impulsive = shown->problem.contact.model == sim::ContactModel::restitution;
     // Panels without data are removed.
     std::erase_if(specs, [&](const PanelSpec& s) {
         if (s.kind != PanelKind::strip) return false;
         const ChannelKind kind = s.channels.front().kind;
         return (kind == ChannelKind::tip_deflection && !column(setup.chart, s.channels.front())) ||
-               (kind == ChannelKind::contact_force && (!force || (s.by_collision && impulsive)));
+               (kind == ChannelKind::contact_force && (!force || (s.by_collision && is_impulsive(*shown))));
     });
     return specs;
 }
@@ -127,7 +129,7 @@ void FilmContext::read_clock() {
         clock.span.low = std::min(clock.span.low, *std::ranges::min_element(*t));
         clock.span.high = std::max(clock.span.high, *std::ranges::max_element(*t));
     }
-    clock.format = time_format(clock.times, clock.span.high);
+    clock.format = time_format(clock.times, std::max(clock.span.high, frames() == 1 ? setup->scene_end : 0));
     if (!(clock.span.high > clock.span.low)) clock.span.high = clock.span.low + clock.format.unit;  // a single instant
 }
 
@@ -218,6 +220,7 @@ sim::Pose FilmContext::pose(int member, int frame) const {
 
 void FilmContext::choose_scales() {
     double moment = 0, force = 0;
+    bool colored = false;  // traces have a force
     scales.exaggeration = std::numeric_limits<double>::infinity();
     for (int m = 0; m < members(); ++m) {
         const Motion& one = motion(m);
@@ -253,12 +256,13 @@ void FilmContext::choose_scales() {
         for (const sim::Impact& i : motion(m).impacts) own = std::max(own, i.force_peak.value_or(0));
         force = std::max(force, own);
         if (own > 0) smallest = std::min(smallest, own);
+        colored = colored || !is_impulsive(motion(m)) || samples[static_cast<std::size_t>(m)].size() > 1;
     }
     scales.force_unit = prefix_for(std::min(smallest, force));
     if (force >= 1e4 * scales.force_unit.factor) scales.force_unit = prefix_for(force);
     if (moment > 0) scales.moment = round_up_125(moment);
     scales.largest_force = force;
-    if (force > 0) scales.force = round_up_125(force);
+    if (force > 0 && colored) scales.force = round_up_125(force);
 }
 
 const std::vector<double>* column(const sim::Table& table, Channel channel) {

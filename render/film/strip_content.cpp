@@ -129,8 +129,9 @@ Range add_places(const FilmContext& context, const Range& shown, ChartContent& c
         for (const TraceSample& s : context.samples[static_cast<std::size_t>(m)]) {
             if (s.t >= shown.low && s.t <= shown.high) places.add({&s.x, 1});
             if (s.t < c.time().low || s.t > c.time().high) continue;
-            Color color = context.members() > 1 ? context.member_color(m)
-                                                : force_color(p, std::sqrt(s.force / context.scales.force));
+            Color color = context.members() > 1
+                              ? context.member_color(m)
+                              : force_color(p, std::sqrt(std::min(1.0, s.force / context.scales.force)));
             if (!context.motion(m).is_reliable(s.t)) color = p.tint(color, kPaleShare);
             c.panel.dots.push_back({s.t, s.x, color, p.tint(place_color(context, m), kDotShare)});
         }

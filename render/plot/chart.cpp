@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "render/plot/ticks.hpp"
+
 namespace beamcam::render {
 namespace {
 
@@ -204,12 +206,11 @@ void Chart::draw_heading(Canvas& canvas) const {
                 heading_style());
 }
 
-// In the unit of the axis, with the decimals that its ticks ask for; zero, and what is rounding beside a tick, has
-// none.
+// In the unit of the axis, with the decimals that its ticks ask for; what these show as zero has none.
 std::string Chart::reading_text(double value) const {
     const std::string unit = plots_[0].y().unit();
     const double number = plots_[0].y().tick_value(value);
-    const bool zero = std::abs(number) < 1e-9 * plots_[0].y().step();
+    const bool zero = std::abs(number) < 0.5 * ten_to(-digits_);
     return fixed(number, zero ? 0 : digits_) + (unit.empty() || unit == "°" ? unit : "\u00A0" + unit);
 }
 

@@ -197,14 +197,14 @@ std::string widest_speed_text(const std::vector<double>& speeds) {
     return widest;
 }
 
-// A still shows a round instant with all its digits, that of an event to a ten-thousandth of the unit.
+// A still shows a round instant with all its digits, that of an event with four.
 static int decimals_of_still(double t) {
     constexpr int kMost = 6, kOfEvents = 4;
     for (int decimals = 1; decimals <= kMost; ++decimals) {
         const double scaled = t * std::pow(10.0, decimals);
         if (std::abs(scaled - std::round(scaled)) < 1e-6) return decimals;
     }
-    return kOfEvents;
+    return std::clamp(kOfEvents - 1 - static_cast<int>(std::floor(std::log10(std::abs(t)))), 0, kOfEvents);
 }
 
 // One digit beyond the smallest step or, from three decimals on, as many as distinguish frames: of a second four at
@@ -232,8 +232,6 @@ TimeFormat time_format(const std::vector<double>& times, double latest) {
     }
     out.decimals = times.back() == times.front() ? decimals_of_still(times.front() / out.unit)
                                                  : decimals_of_frames(times, out.unit, span);
-    // Below a second, milliseconds take the place of more than three decimals.
-    if (out.unit == 1 && span < 1 && out.decimals > 3) out = {1e-3, "ms", out.decimals - 3};
     return out;
 }
 

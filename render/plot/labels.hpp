@@ -35,7 +35,7 @@ struct TimeFormat {
     const char* symbol = "s";
     int decimals = 3;
 };
-// The unit suits the latest instant of the charts, too.
+// Seconds, or a smaller unit if all frames and `latest` are below 0.2 s.
 TimeFormat time_format(const std::vector<double>& frame_times, double latest = 0);
 std::string clock_text(const TimeFormat& format, double t);
 

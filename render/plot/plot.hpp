@@ -69,7 +69,7 @@ class Plot {
 
   private:
     void fit_x(const Painter& on, const Axis& axis, const Extent& data);
-    void draw_spans(Painter& on, const Interval& part) const;
+    void draw_spans(Painter& on, const Interval& part, bool names) const;
     void draw_curve(Painter& on, const Series& curve, const Interval& part) const;
 
     const Panel* panel_;

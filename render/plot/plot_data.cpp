@@ -121,8 +121,9 @@ void Plot::draw_dots_and_events(Painter& on, const Interval& part) const {
     }
 }
 
-// Intervals of the past, each name once, in the widest of its intervals in the plot, if it has room there.
-void Plot::draw_spans(Painter& on, const Interval& part) const {
+// Intervals of the past, or above the curves their names: each once, in the widest of its intervals in the plot, if it
+// has room there.
+void Plot::draw_spans(Painter& on, const Interval& part, bool names) const {
     TextStyle text = style_->tick_numbers();
     text.align = HAlign::centre;
     std::map<std::string, double> widest;  // of each name
@@ -135,19 +136,22 @@ void Plot::draw_spans(Painter& on, const Interval& part) const {
         const double from = along_x(std::max(span.from, part.from)) + shift_.x,
                      to = along_x(std::min(span.to, part.to)) + shift_.x;
         if (!part.past || !(from < to)) continue;
-        on.rectangle({from, box_.y + shift_.y, to - from, box_.h});
-        on.fill(span.color);
-        if (width(span) == widest[span.label] && on.measure(span.label, text).w < width(span))
+        text.halo = mix(style_->palette->paper, span.color.faded(1 / std::max(span.color.a, 1e-9)), span.color.a);
+        if (!names) {
+            on.rectangle({from, box_.y + shift_.y, to - from, box_.h});
+            on.fill(span.color);
+        } else if (width(span) == widest[span.label] && on.measure(span.label, text).w < width(span))
             on.text({along_x(0.5 * (span.from + span.to)) + shift_.x, box_.y + shift_.y + 0.9 * style_->numbers},
                     span.label, text);
     }
 }
 
 void Plot::draw_data(Painter& on, const Interval& part) const {
-    draw_spans(on, part);
+    draw_spans(on, part, false);
     draw_bands(on, part);
     draw_dots_and_events(on, part);  // below the curves, which many dots would hide
     for (const Series& curve : panel_->series) draw_curve(on, curve, part);
+    draw_spans(on, part, true);
 }
 
 }  // namespace beamcam::render::figure

@@ -43,13 +43,13 @@ std::string paler_note(const render::FilmSetup& setup) {
     std::string note;
     for (const render::Range& lost : setup.unreliable) {
         note += note.empty() ? " " : ", ";
-        note += std::isinf(lost.high) ? fmt::format("> {:.3g} s", lost.low)
+        note += std::isinf(lost.high) ? fmt::format("after {:.3g} s", lost.low)
                                       : fmt::format("{:.3g}–{:.3g} s", lost.low, lost.high);
     }
     if (!setup.others.empty()) note.clear();
     const bool any = !setup.unreliable.empty() ||
                      std::ranges::any_of(setup.others, [](const auto& motion) { return !motion.unreliable.empty(); });
-    return any ? "paler: θ not reproducible" + note : std::string();
+    return any ? "paler: $θ$ not reproducible" + note : std::string();
 }
 
 std::vector<render::FilmData> data_of(const Scene& scene) {
@@ -93,6 +93,7 @@ render::FilmSetup film_setup(const Plan& plan, const PlannedPictures& p, const S
                              std::vector<sim::Result>& results) {
     render::FilmSetup setup;
     setup.title = scene.title;
+    setup.scene_end = scene.end_time;
     setup.width = p.size.width;
     setup.height = p.size.height;
     setup.view = p.view;

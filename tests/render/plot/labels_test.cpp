@@ -94,16 +94,17 @@ TEST(Labels, FreezesLeaveTheClockItsThreeDecimals) {
     EXPECT_EQ(time_format(times).decimals, 3);
 }
 
-// Slow motion below a second is in milliseconds if its frames are less than one apart.
+// Only what lasts less than 0.2 s is in milliseconds, with four digits.
 TEST(Labels, TheClockHasNoMoreDecimalsThanItNeeds) {
     const auto decimals = [](double step) { return time_format({0.2, 0.2 + step, 0.2 + 2 * step}).decimals; };
     EXPECT_EQ(decimals(0.1), 2);
     EXPECT_EQ(decimals(1 / 60.0), 3);
     EXPECT_EQ(decimals(0.0033), 3);
-    EXPECT_EQ(decimals(0.0005), 1);
-    EXPECT_STREQ(time_format({0.2, 0.2005, 0.201}).symbol, "ms");
+    EXPECT_EQ(decimals(0.0005), 4);
+    EXPECT_STREQ(time_format({0.2, 0.2005, 0.201}).symbol, "s");
     EXPECT_STREQ(time_format({0.2, 0.2005, 1.2}).symbol, "s");
-    EXPECT_STREQ(time_format({0.28152518347}, 0.5).symbol, "ms");
+    EXPECT_STREQ(time_format({0.28152518347}, 0.5).symbol, "s");
+    EXPECT_EQ(time_format({0.12684631234}).decimals, 1);
 }
 
 TEST(Labels, SpeedsOfRotationAreWrittenAsTheUserWroteThem) {

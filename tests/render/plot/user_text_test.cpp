@@ -92,8 +92,8 @@ TEST(Lang, TellsThePicturesOwnWordsInChinese) {
     EXPECT_EQ(in(Lang::zh, "bending moment (√ scale)"), "弯矩（√ 标度）");
     EXPECT_EQ(in(Lang::zh, "1/50 speed"), "1/50 倍速");
     EXPECT_EQ(in(Lang::zh, "first-order, 2 modes"), "一阶模型, 2 阶模态");
-    EXPECT_EQ(in(Lang::zh, "bends beyond first-order · paler: θ not reproducible"),
-              "挠曲超出 一阶模型 · 浅色：θ 不能重现");
+    EXPECT_EQ(in(Lang::zh, "bends beyond first-order · paler: $θ$ not reproducible after 1.3 s"),
+              "挠曲超出 一阶模型 · 浅色：1.3 s 之后 $θ$ 不能重现");
 }
 
 // Whole phrases: a word within a phrase is not translated by itself.
