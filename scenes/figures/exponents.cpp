@@ -53,8 +53,9 @@ Panel panel_of(const sim::Exponents& e, std::size_t first, std::size_t last, Lan
 
 render::figure::Figure exponents_figure(const sim::Exponents& e, const Subject& subject) {
     const Lang lang = subject.lang;
+    const std::size_t count = e.lambda.size();  // none of a rigid beam on a driven hub
     // The largest one is apart, since the others may be far below it.
-    std::vector<Panel> panels{panel_of(e, 0, 1, lang), panel_of(e, 1, e.lambda.size(), lang)};
+    std::vector<Panel> panels{panel_of(e, 0, std::min<std::size_t>(1, count), lang), panel_of(e, 1, count, lang)};
     std::erase_if(panels, [](const Panel& panel) { return panel.series.empty(); });
     if (panels.empty())
         throw render::PictureError(

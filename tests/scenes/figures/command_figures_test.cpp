@@ -29,6 +29,7 @@ TEST(ExponentsFigure, ShowsTheErrorsOfItsValuesAndNotTheStart) {
     EXPECT_EQ(figure.panels[0].series.at(0).label, "$λ$_{1} = 3.441 ± 0.070 s^{−1}");
     EXPECT_EQ(figure.panels[1].series.at(0).label, "$λ$_{2} = −8.2 ± 1.3 s^{−1}");
     EXPECT_NEAR(figure.panels[1].bands.at(0).low.at(0), -8.21 - 1.3, 1e-12);
+    EXPECT_THROW(exponents_figure(sim::Exponents{}, {}), render::PictureError);
 }
 
 sim::Accuracy measured() {
