@@ -40,7 +40,7 @@ std::string with_own_numbers(std::string_view svg) {
     for (std::size_t at = 0;;) {
         std::size_t id = std::string_view::npos;
         std::size_t word = 0;
-        for (const std::string_view name : {"\"surface", "\"image", "#image"})
+        for (const std::string_view name : {"\"surface", "\"image", "#image", "\"source-", "#source-"})
             if (const std::size_t found = svg.find(name, at); found < id) id = found, word = name.size();
         if (id == std::string_view::npos) return out.append(svg.substr(at));
         const std::size_t number = id + word, end = svg.find('"', number);

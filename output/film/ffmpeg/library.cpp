@@ -46,7 +46,10 @@ VideoInfo info_of(const std::filesystem::path& file) {
     info.width = stream.codecpar->width;
     info.height = stream.codecpar->height;
     info.frames = static_cast<long>(std::max<std::int64_t>(0, stream.nb_frames));
-    info.seconds = film->duration > 0 ? static_cast<double>(film->duration) / AV_TIME_BASE : 0;
+    if (film->duration > 0)
+        info.seconds = static_cast<double>(film->duration) / AV_TIME_BASE;
+    else if (stream.duration > 0)  // MP4 and MOV since FFmpeg 7
+        info.seconds = static_cast<double>(stream.duration) * av_q2d(stream.time_base);
     info.codec = avcodec_get_name(stream.codecpar->codec_id);
     for (const AVDictionary* some : {film->metadata, stream.metadata}) {
         const AVDictionaryEntry* entry = nullptr;
