@@ -90,9 +90,9 @@ double distance_from_cam(const System& system, double t, Vec2 point) {
     return distance;
 }
 
-class Contact_ : public ::testing::TestWithParam<ContactCase> {};
+class ContactTest : public ::testing::TestWithParam<ContactCase> {};
 
-TEST_P(Contact_, FootIsTheNearestPoint) {
+TEST_P(ContactTest, FootIsTheNearestPoint) {
     const Problem p = contact_problem(GetParam());
     System system(p);
     Dice dice(11);
@@ -119,7 +119,7 @@ TEST_P(Contact_, FootIsTheNearestPoint) {
     }
 }
 
-TEST_P(Contact_, GapRateIsTheDerivativeOfTheGap) {
+TEST_P(ContactTest, GapRateIsTheDerivativeOfTheGap) {
     const Problem p = contact_problem(GetParam());
     System system(p);
     Dice dice(12);
@@ -140,7 +140,7 @@ TEST_P(Contact_, GapRateIsTheDerivativeOfTheGap) {
 }
 
 // The gap of a motion with constant ξ̇, whose second derivative is g̈ at ξ̈ = 0 (S44).
-TEST_P(Contact_, GapAccelerationIsTheDerivativeOfTheGapRate) {
+TEST_P(ContactTest, GapAccelerationIsTheDerivativeOfTheGapRate) {
     Problem p = contact_problem(GetParam());
     p.gravity = 0;
     p.hub.drive = FreeDrive{};
@@ -162,7 +162,7 @@ TEST_P(Contact_, GapAccelerationIsTheDerivativeOfTheGapRate) {
     }
 }
 
-TEST_P(Contact_, PowerOnTheBeamIsWorkOfTheCamLessWhatTheContactTakes) {
+TEST_P(ContactTest, PowerOnTheBeamIsWorkOfTheCamLessWhatTheContactTakes) {
     const Problem p = contact_problem(GetParam());
     System system(p);
     Dice dice(13);
@@ -189,7 +189,7 @@ TEST_P(Contact_, PowerOnTheBeamIsWorkOfTheCamLessWhatTheContactTakes) {
 }
 
 // The total of the energy balance along the flow has a zero rate.
-TEST_P(Contact_, LedgerIsConstantAlongTheFlow) {
+TEST_P(ContactTest, LedgerIsConstantAlongTheFlow) {
     const Problem p = contact_problem(GetParam());
     System system(p);
     Dice dice(14);
@@ -214,7 +214,7 @@ TEST_P(Contact_, LedgerIsConstantAlongTheFlow) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, Contact_,
+INSTANTIATE_TEST_SUITE_P(Every, ContactTest,
                          ::testing::Values(ContactCase{ModelKind::rigid, Basis::automatic, 0, 0, 0},
                                            ContactCase{ModelKind::rigid, Basis::automatic, -0.1, 0.02, 1},
                                            ContactCase{ModelKind::zeroth_order, Basis::hub_beam, 0, 0.02, 1},

@@ -33,7 +33,7 @@ std::vector<Branch> branches_of(const Family& family, double from, const Continu
     return continue_orbit(family, {from, found.front()}, request);
 }
 
-TEST(Continuation_, FoldAndPeriodDoublingOfThePressedBeamAreThePublishedNumbers) {
+TEST(Continuation, FoldAndPeriodDoublingOfThePressedBeamAreThePublishedNumbers) {
     const PressedBeam b;
     const auto branches = branches_of([&](double w) { return b.problem(w); }, 46, {41, 53, 0.02, 500, 0});
     ASSERT_EQ(branches.size(), 1u);
@@ -48,7 +48,7 @@ TEST(Continuation_, FoldAndPeriodDoublingOfThePressedBeamAreThePublishedNumbers)
     EXPECT_NEAR(std::abs(doubling->at.orbit.multipliers[1] + 0.25), 0, 1e-9);
 }
 
-TEST(Continuation_, FoldAndPeriodDoublingOfOtherBeamsAreThoseOfTheClosedForm) {
+TEST(Continuation, FoldAndPeriodDoublingOfOtherBeamsAreThoseOfTheClosedForm) {
     struct Case {
         PressedBeam beam;
         double from;  // [rad/s], between fold and period doubling
@@ -74,7 +74,7 @@ TEST(Continuation_, FoldAndPeriodDoublingOfOtherBeamsAreThoseOfTheClosedForm) {
 
 // The same cam in the opposite direction; its profile is not symmetric. The values are roots of the closed form
 // in 25 digits.
-TEST(Continuation_, ACamThatTurnsTheOtherWayHasItsOwnFoldAndPeriodDoubling) {
+TEST(Continuation, ACamThatTurnsTheOtherWayHasItsOwnFoldAndPeriodDoubling) {
     const PressedBeam b;
     const auto branches = branches_of([&](double w) { return b.problem(w); }, -47, {-53, -41, 0.02, 500, 0});
     ASSERT_EQ(branches.size(), 1u);
@@ -87,7 +87,7 @@ TEST(Continuation_, ACamThatTurnsTheOtherWayHasItsOwnFoldAndPeriodDoubling) {
 
 // A cam of vanishing eccentricity is a table that shakes harmonically: Γ = Aω²/α with the amplitude A of θ_c. With k
 // turns a flight Γ_SN = kπ(1 − r)/(1 + r), Γ_PD² = Γ_SN² + [2(1 + r²)/(1 + r)²]².
-TEST(Continuation_, SmallEccentricityIsTheBouncingBall) {
+TEST(Continuation, SmallEccentricityIsTheBouncingBall) {
     for (const double r : {0.3, 0.5, 0.8})
         for (const int turns : {1, 2}) {
             PressedBeam b;
@@ -116,7 +116,7 @@ TEST(Continuation_, SmallEccentricityIsTheBouncingBall) {
         }
 }
 
-TEST(Continuation_, DoubledBranchesDoubleAgain) {
+TEST(Continuation, DoubledBranchesDoubleAgain) {
     const PressedBeam b;
     const auto branches = branches_of([&](double w) { return b.problem(w); }, 49, {48, 54, 0.02, 500, 2});
     ASSERT_EQ(branches.size(), 3u);
@@ -132,7 +132,7 @@ TEST(Continuation_, DoubledBranchesDoubleAgain) {
 }
 
 // Backwards along the branch of two turns. At its origin it meets itself, each orbit begun a turn later: no fold.
-TEST(Continuation_, ABranchOfDoubledPeriodEndsAtThePeriodDoubling) {
+TEST(Continuation, ABranchOfDoubledPeriodEndsAtThePeriodDoubling) {
     const PressedBeam b;
     const Family family = [&](double w) { return b.problem(w); };
     const auto both = branches_of(family, 49, {48, 52, 0.02, 500, 1});
@@ -153,7 +153,7 @@ TEST(Continuation_, ABranchOfDoubledPeriodEndsAtThePeriodDoubling) {
 }
 
 // No value beyond an end of the range has a problem. The branch begins and ends there, once.
-TEST(Continuation_, ABranchMayStartAtTheLastValueWithAProblem) {
+TEST(Continuation, ABranchMayStartAtTheLastValueWithAProblem) {
     const PressedBeam b;
     constexpr double kEnd = 0.05;
     const Family family = [&](double inertia) {
@@ -176,7 +176,7 @@ TEST(Continuation_, ABranchMayStartAtTheLastValueWithAProblem) {
 }
 
 // From the fold on, the two orbits at the start are one branch.
-TEST(Continuation_, ABranchKnowsItsOrbitsAtTheParameterOfItsStart) {
+TEST(Continuation, ABranchKnowsItsOrbitsAtTheParameterOfItsStart) {
     const PressedBeam b;
     const Family family = [&](double w) { return b.problem(w); };
     const auto branches = branches_of(family, 45, {41, 53, 0.02, 500, 0});
@@ -193,7 +193,7 @@ TEST(Continuation_, ABranchKnowsItsOrbitsAtTheParameterOfItsStart) {
         }
 }
 
-TEST(Continuation_, ABranchEndsWhenItsMotionsHaveTakenTheirSteps) {
+TEST(Continuation, ABranchEndsWhenItsMotionsHaveTakenTheirSteps) {
     const PressedBeam b;
     const Family family = [&](double w) {
         Problem p = b.on_orbit(w);
@@ -213,7 +213,7 @@ TEST(Continuation_, ABranchEndsWhenItsMotionsHaveTakenTheirSteps) {
 }
 
 // Over the speed the impact turns with the cam by more than half a turn, past any fixed section.
-TEST(Continuation_, TheSectionStaysInFlight) {
+TEST(Continuation, TheSectionStaysInFlight) {
     const Family family = [](double speed) {
         Problem p;
         p.beam.model = ModelKind::rigid;
@@ -242,7 +242,7 @@ TEST(Continuation_, TheSectionStaysInFlight) {
 }
 
 // An area-preserving map has reciprocal multipliers μ and 1/μ.
-TEST(Continuation_, ConservativeContactHasReciprocalMultipliers) {
+TEST(Continuation, ConservativeContactHasReciprocalMultipliers) {
     PressedBeam b;
     b.restitution = 1;
     Problem p = b.on_orbit(48);
@@ -259,7 +259,7 @@ TEST(Continuation_, ConservativeContactHasReciprocalMultipliers) {
 }
 
 // The multipliers of a stable conservative orbit remain on the unit circle, which is not a crossing.
-TEST(Continuation_, ConservativeImpactsHaveNoNeimarkSackerPoint) {
+TEST(Continuation, ConservativeImpactsHaveNoNeimarkSackerPoint) {
     PressedBeam b;
     b.restitution = 1;
     const auto branches = branches_of([&](double w) { return b.on_orbit(w); }, 38, {32, 41, 0.02, 500, 0});
@@ -293,7 +293,7 @@ TEST(LongContinuation, StiffContactTendsToNewtonsPeriodDoubling) {
     EXPECT_GT(std::fabs(stiffer - 50.86884987331), 10 * std::fabs(limit - 50.86884987331));
 }
 
-TEST(Orbits_, ChatteringAttractorComesWithTheOrbitsBesideIt) {
+TEST(Orbits, ChatteringAttractorComesWithTheOrbitsBesideIt) {
     const auto found = find_orbits(PressedBeam().problem(45), {});
     ASSERT_GE(found.size(), 2u);
     EXPECT_TRUE(found[0].chatters());
@@ -305,7 +305,7 @@ TEST(Orbits_, ChatteringAttractorComesWithTheOrbitsBesideIt) {
 }
 
 // At 53 rad/s the motion is chaotic. The orbit near it says nothing about those from which it has branched off.
-TEST(Orbits_, AnUnstableOrbitNearTheMotionComesWithTheOrbitsBesideIt) {
+TEST(Orbits, AnUnstableOrbitNearTheMotionComesWithTheOrbitsBesideIt) {
     const auto found = find_orbits(PressedBeam().problem(53), {});
     ASSERT_GE(found.size(), 2u);
     EXPECT_FALSE(found[0].stable());
@@ -313,7 +313,7 @@ TEST(Orbits_, AnUnstableOrbitNearTheMotionComesWithTheOrbitsBesideIt) {
     EXPECT_TRUE(std::ranges::any_of(found, [](const auto& orbit) { return orbit.impacts.size() == 1; }));
 }
 
-TEST(Orbits_, ProblemsWithoutAPeriodAreRejectedWithAMessage) {
+TEST(Orbits, ProblemsWithoutAPeriodAreRejectedWithAMessage) {
     Problem p;
     p.cam->speed = 0;
     EXPECT_TRUE(orbit_refusal(p).has_value());

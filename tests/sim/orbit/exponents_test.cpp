@@ -15,7 +15,7 @@ namespace {
 
 double sum(const Exponents& e) { return std::accumulate(e.lambda.begin(), e.lambda.end(), 0.0); }
 
-TEST(Exponents_, PeriodicMotionHasTheExponentsOfItsMultipliers) {
+TEST(Exponents, PeriodicMotionHasTheExponentsOfItsMultipliers) {
     // Between fold and period doubling: a stable orbit with one impact per turn.
     const Exponents e = lyapunov_exponents(PressedBeam().on_orbit(45), {0, 20, 50, 10});
     ASSERT_EQ(e.lambda.size(), 2u);
@@ -26,7 +26,7 @@ TEST(Exponents_, PeriodicMotionHasTheExponentsOfItsMultipliers) {
 }
 
 // An impact multiplies volumes by r², the damper of the hub by e^(−c/J) a second, whatever the outline.
-TEST(Exponents_, SumOfARigidBeamOnAProfileIsThatOfImpactsAndDamper) {
+TEST(Exponents, SumOfARigidBeamOnAProfileIsThatOfImpactsAndDamper) {
     const LawProfile law{14 * kDegree,
                          {{MotionLaw::cycloidal, 3 * kDegree, {}}, {MotionLaw::cycloidal, -3 * kDegree, {}}}};
     LawProfile halves = law;
@@ -50,7 +50,7 @@ TEST(Exponents_, SumOfARigidBeamOnAProfileIsThatOfImpactsAndDamper) {
 }
 
 // A leaf follows a cam of arcs over their joints.
-TEST(Exponents_, OfSustainedContactOverAJumpOfTheRadiusAreRefused) {
+TEST(Exponents, OfSustainedContactOverAJumpOfTheRadiusAreRefused) {
     Problem p = with_profile(tangent_arcs());
     p.hub.spring = {0.6, -0.7, 0};
     p.beam.length = 0.12;
@@ -73,7 +73,7 @@ TEST(Exponents_, OfSustainedContactOverAJumpOfTheRadiusAreRefused) {
 }
 
 // Differences from an upright rod grow by √(3 g/2 L), but it stands still.
-TEST(Exponents_, AnUnstableEquilibriumIsNoChaos) {
+TEST(Exponents, AnUnstableEquilibriumIsNoChaos) {
     Problem problem = PressedBeam().on_orbit(45);
     problem.cam.reset();
     problem.hub.drive = FreeDrive{};
@@ -85,7 +85,7 @@ TEST(Exponents_, AnUnstableEquilibriumIsNoChaos) {
 }
 
 // Differences of a free rotor grow in proportion to the time.
-TEST(Exponents_, LinearGrowthIsNoChaos) {
+TEST(Exponents, LinearGrowthIsNoChaos) {
     Problem problem = PressedBeam().on_orbit(45);
     problem.cam.reset();
     problem.hub.drive = FreeDrive{};
@@ -95,7 +95,7 @@ TEST(Exponents_, LinearGrowthIsNoChaos) {
 }
 
 // Σλ = 2ν ln r − 2Σζω, exactly, with the impacts of the same run.                                            (S73)
-TEST(Exponents_, SumIsThatOfImpactsAndDamping) {
+TEST(Exponents, SumIsThatOfImpactsAndDamping) {
     SKIP_UNDER_SANITIZERS();
     struct Case {
         int modes;
@@ -130,7 +130,7 @@ TEST(Exponents_, SumIsThatOfImpactsAndDamping) {
     }
 }
 
-TEST(Exponents_, ChaosHasAPositiveExponentThatALongerRunConfirms) {
+TEST(Exponents, ChaosHasAPositiveExponentThatALongerRunConfirms) {
     SKIP_UNDER_SANITIZERS();
     const Problem p = PressedBeam().on_orbit(54);
     const ExponentsRequest request{1, 20, 800, 20};
@@ -148,7 +148,7 @@ TEST(Exponents_, ChaosHasAPositiveExponentThatALongerRunConfirms) {
 
 // Sixty turns from each of many starts on one attractor: blocks of three turns, between which growth is correlated,
 // state no error that is too small.
-TEST(Exponents_, ErrorsOfShortRunsCoverTheirScatter) {
+TEST(Exponents, ErrorsOfShortRunsCoverTheirScatter) {
     SKIP_UNDER_SANITIZERS();
     constexpr double kLongRun = 1.985;  // as above
     constexpr int kStarts = 30;
@@ -165,7 +165,7 @@ TEST(Exponents_, ErrorsOfShortRunsCoverTheirScatter) {
     EXPECT_GT(std::sqrt(squares / kStarts), 0.2);
 }
 
-TEST(Exponents_, TheContributionOfNearGrazingImpactsIsNoProofOfChaos) {
+TEST(Exponents, TheContributionOfNearGrazingImpactsIsNoProofOfChaos) {
     Exponents e;
     e.lambda = {1}, e.error = {0.1}, e.duration = 100, e.impacts = 50;
     EXPECT_EQ(e.chaos(), Chaos::shown);
@@ -178,7 +178,7 @@ TEST(Exponents_, TheContributionOfNearGrazingImpactsIsNoProofOfChaos) {
     EXPECT_EQ(e.chaos(), Chaos::not_shown);
 }
 
-TEST(Exponents_, ASensitiveTransientIsNoChaos) {
+TEST(Exponents, ASensitiveTransientIsNoChaos) {
     SKIP_UNDER_SANITIZERS();
     const Problem p;  // its differences grow until about 4 s and are gone at 9 s
     const ExponentsRequest request{.count = 1, .transient = 2, .duration = 4};
@@ -189,7 +189,7 @@ TEST(Exponents_, ASensitiveTransientIsNoChaos) {
     EXPECT_THAT(e.warnings.back(), ::testing::HasSubstr("transient"));
 }
 
-TEST(Exponents_, AnAverageThatStartsBeforeTheMotionHasSettledIsReported) {
+TEST(Exponents, AnAverageThatStartsBeforeTheMotionHasSettledIsReported) {
     EXPECT_TRUE(lyapunov_exponents(PressedBeam().on_orbit(45), {1, 20, 50, 10}).settled);
     EXPECT_TRUE(lyapunov_exponents(PressedBeam().on_orbit(54), {1, 20, 200, 20}).settled);
     // Started on the unstable orbit beyond the period doubling, it takes some seconds to leave for the doubled one.
@@ -198,7 +198,7 @@ TEST(Exponents_, AnAverageThatStartsBeforeTheMotionHasSettledIsReported) {
     EXPECT_FALSE(leaving.warnings.empty());
 }
 
-TEST(Exponents_, SustainedContactForgetsAtOnce) {
+TEST(Exponents, SustainedContactForgetsAtOnce) {
     const Exponents e = lyapunov_exponents(PressedBeam().problem(5), {0, 20, 5, 5});
     EXPECT_EQ(e.lambda, std::vector<double>(2, -std::numeric_limits<double>::infinity()));
     EXPECT_FALSE(e.chaotic());
@@ -207,7 +207,7 @@ TEST(Exponents_, SustainedContactForgetsAtOnce) {
 
 // Sustained contact annihilates all tangents. It occurs once in some fifty turns of this chaotic motion, at turns
 // that rounding chooses: in the transient it is forgotten.
-TEST(Exponents_, RestDuringTheTransientIsForgotten) {
+TEST(Exponents, RestDuringTheTransientIsForgotten) {
     const PressedBeam b{0.002, 0.85};
     constexpr double kTransient = 1500;
     const Exponents whole = lyapunov_exponents(b.on_orbit(52), {0, 0, kTransient, 10});
@@ -224,7 +224,7 @@ TEST(Exponents_, RestDuringTheTransientIsForgotten) {
 }
 
 // The slowest impacts at the end of chatter cannot be linearized.
-TEST(Exponents_, NearGrazingImpactsAreCountedAndWarnedOf) {
+TEST(Exponents, NearGrazingImpactsAreCountedAndWarnedOf) {
     const Exponents regular = lyapunov_exponents(PressedBeam().on_orbit(45), {1, 5, 20, 5});
     EXPECT_EQ(regular.near_grazing, 0);
     EXPECT_TRUE(regular.warnings.empty());
@@ -233,7 +233,7 @@ TEST(Exponents_, NearGrazingImpactsAreCountedAndWarnedOf) {
     EXPECT_THAT(chattering.warnings.front(), ::testing::HasSubstr("near grazing"));
 }
 
-TEST(Exponents_, ModelsWithoutTangentFlowAreRejectedWithAMessage) {
+TEST(Exponents, ModelsWithoutTangentFlowAreRejectedWithAMessage) {
     for (const ModelKind kind : {ModelKind::paper, ModelKind::second_order, ModelKind::exact}) {
         Problem p;
         p.beam.model = kind;

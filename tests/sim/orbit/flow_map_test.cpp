@@ -43,10 +43,10 @@ struct MapCase {
     double tolerance = 2e-7;  // of a row, besides the rounding of the motion over h
 };
 
-class FlowMap_ : public ::testing::TestWithParam<MapCase> {};
+class FlowMapTest : public ::testing::TestWithParam<MapCase> {};
 
 // Each column, in the units of its rows: a finite difference in one coordinate against the exact tangent.
-TEST_P(FlowMap_, DerivativeIsTheLimitOfDifferences) {
+TEST_P(FlowMapTest, DerivativeIsTheLimitOfDifferences) {
     const MapCase& c = GetParam();
     const InitialState start = initial_state(c.problem);
     const FlowMap map = flow_map(c.problem, start, c.duration, true);
@@ -115,7 +115,7 @@ std::vector<MapCase> map_cases() {
 
 std::string map_case_name(const ::testing::TestParamInfo<MapCase>& info) { return info.param.name; }
 
-INSTANTIATE_TEST_SUITE_P(All, FlowMap_, ::testing::ValuesIn(map_cases()), map_case_name);
+INSTANTIATE_TEST_SUITE_P(All, FlowMapTest, ::testing::ValuesIn(map_cases()), map_case_name);
 
 // det = r²ⁿ over n impacts, whatever gravity, torque and cam do between them.                             (S73)
 TEST(FlowMapLaw, DeterminantOfARigidBeamIsThatOfItsImpacts) {
