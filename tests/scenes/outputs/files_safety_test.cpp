@@ -2,6 +2,7 @@
 // mistake costs its own output alone.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "tests/scenes/support.hpp"
 
@@ -124,14 +125,15 @@ TEST(FileSafety, AMissingSceneCostsNoOther) {
     EXPECT_TRUE(fs::exists(folder / "b-summary.json"));
 }
 
-// Runs the command as a user who may have so many processes and threads, and has no others: those count, too.
+// Runs the command as a user who may have so many processes and threads. Those of all programs of a user count, so each
+// test program has its own.
 Finished with_threads(const Folder& folder, int most, const std::string& command) {
-    return shell(
-        folder,
-        "chmod 777 .; as='prlimit --nproc=" + std::to_string(most) +
-            "'; if [ $(id -u) = 0 ]; then as=\"setpriv --reuid $((20000 + $$ % 40000)) --clear-groups $as\"; fi; "
-            "HOME=$PWD ASAN_OPTIONS=detect_leaks=0 timeout -s KILL 60 $as $BEAMCAM " +
-            command);  // the search for leaks needs a thread of its own
+    return shell(folder, "chmod 777 .; as='prlimit --nproc=" + std::to_string(most) +
+                             "'; if [ $(id -u) = 0 ]; then as=\"setpriv --reuid " +
+                             std::to_string(20000 + getpid() % 40000) +
+                             " --clear-groups $as\"; fi; "
+                             "HOME=$PWD ASAN_OPTIONS=detect_leaks=0 timeout -s KILL 60 $as $BEAMCAM " +
+                             command);  // the search for leaks needs a thread of its own
 }
 
 // Root may do anything, and another user may not reach the program.
