@@ -6,6 +6,7 @@
 #include "render/film/panel.hpp"
 #include "render/mechanism/cam_outline.hpp"
 #include "render/mechanism/mechanism.hpp"
+#include "sim/cam/motion_law.hpp"
 
 namespace beamcam::render {
 namespace {
