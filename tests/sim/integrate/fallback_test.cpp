@@ -63,17 +63,22 @@ TEST(Fallback, StepsAreCountedByTheMethodThatTookThem) {
     EXPECT_EQ(r.steps_by_method, (StepsByMethod{{Method::cvode_adams, r.counters.steps}}));
 }
 
-// With a light hub bending changes most of the inertia, and the sweeps of `exact` do not contract, however short the
-// step.
-TEST(Fallback, AFlightOfABeamThatBendsFarOnALightHubIsHandedOver) {
+Problem exact_strip_on_a_light_hub(double length, Rectangle section, double density, double youngs_modulus) {
     Problem p;
     p.hub.inertia = 0;
     p.beam.model = ModelKind::exact;
     p.beam.modes = 3;
-    p.beam.length = 0.6;
-    p.beam.section = Rectangle{0.02, 0.003};
-    p.beam.density = 1190;
-    p.beam.youngs_modulus = 3.3e9;
+    p.beam.length = length;
+    p.beam.section = section;
+    p.beam.density = density;
+    p.beam.youngs_modulus = youngs_modulus;
+    return p;
+}
+
+// With a light hub bending changes most of the inertia, and the sweeps of `exact` do not contract, however short the
+// step.
+TEST(Fallback, AFlightOfABeamThatBendsFarOnALightHubIsHandedOver) {
+    Problem p = exact_strip_on_a_light_hub(0.6, {0.02, 0.003}, 1190, 3.3e9);
     p.cam = Cam{{0.3, -0.03}, 0.06, 0.018, 0, 12, {}, 0.3};
     p.contact.stiffness = 1e6;
     p.initial.angle = 0.8;
@@ -92,14 +97,7 @@ TEST(Fallback, AFlightOfABeamThatBendsFarOnALightHubIsHandedOver) {
 
 // A beam that hangs in a deep bend is released.
 TEST(Fallback, ABentBeamReleasedOnALightHubStarts) {
-    Problem p;
-    p.hub.inertia = 0;
-    p.beam.model = ModelKind::exact;
-    p.beam.modes = 3;
-    p.beam.length = 0.3;
-    p.beam.section = Rectangle{0.03, 0.02};
-    p.beam.density = 1100;
-    p.beam.youngs_modulus = 2e6;
+    Problem p = exact_strip_on_a_light_hub(0.3, {0.03, 0.02}, 1100, 2e6);
     p.cam = {};
     p.initial = {0.5, 0, InitialShape::static_equilibrium};
     const Result r = run(p, 0.5);
