@@ -69,15 +69,13 @@ Range range_of(const FilmContext& context, const PanelSpec& spec, const std::vec
     Extent all;
     const Channel channel = spec.channels.front();
     const auto see = [&](double v) { all.add({&v, 1}); };
-    const bool still = context.frames() == 1;  // a still shows only its past, which the chart contains
     const Range time = shown_time(context, spec);
     for (const figure::Series& curve : curves)
         all.add(spec.window ? rows_within(curve, time) : std::span<const double>(curve.y));
     for (int m = 0; channel.kind == ChannelKind::theta && m < context.members(); ++m) {
         const Motion& one = context.motion(m);
-        for (std::size_t k = 0; k < (still ? 1 : one.surveyed()); ++k)
-            if (const sim::Pose pose = still ? one.pose(0) : one.surveyed(k);
-                still || (pose.t >= time.low && pose.t <= time.high))
+        for (std::size_t k = 0; k < one.surveyed(); ++k)
+            if (const sim::Pose pose = one.surveyed(k); pose.t >= time.low && pose.t <= time.high)
                 see(context.shown_factor(channel) * pose.theta);
     }
     const auto& [any, low, high] = all;

@@ -69,7 +69,7 @@ Camera ViewExtent::camera(const Box& box, double u) const {
 ViewExtent view_extent_of(const FilmContext& context, double least_depth) {
     ViewExtent extent;
     const FilmSetup& setup = *context.setup;
-    const bool still = context.frames() == 1, ghosts = context.members() > 1 && setup.comparison == Comparison::ghosts;
+    const bool ghosts = context.members() > 1 && setup.comparison == Comparison::ghosts;
     for (int m = 0; m < context.members(); ++m) {
         const Motion& one = context.motion(m);
         extent.problems.push_back(&one.problem);
@@ -86,8 +86,7 @@ ViewExtent view_extent_of(const FilmContext& context, double least_depth) {
                 extent.arrows.push_back({beam.contact->on_disc, beam.contact->normal,
                                          std::min(1.0, pose.nearest->force / context.scales.arrow_force), depth});
         };
-        if (still) show(one.pose(0));
-        for (std::size_t k = 0; !still && k < one.surveyed(); ++k) show(one.surveyed(k));
+        for (std::size_t k = 0; k < one.surveyed(); ++k) show(one.surveyed(k));
     }
     const sim::Problem& first = context.motion(0).problem;
     for (std::size_t k = 0; k < setup.data.size(); ++k)

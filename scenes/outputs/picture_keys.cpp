@@ -53,8 +53,7 @@ static void visit(SceneVisitor& v, View& view) {
     visit_exaggeration(
         v, view.exaggeration,
         "Factor of the deflection, stated on the picture; 1 is the true shape. auto: a round factor up to "
-        "50 that suits the motion during the film (at any frame rate), during the scene (stills at "
-        "events) or before the instant of a still.");
+        "50 that suits the motion during the film, at any frame rate, or during the whole scene of a still.");
 }
 
 static void visit(SceneVisitor& v, render::Shown& show) {

@@ -127,10 +127,10 @@ FigureOutput with_times_of(FigureOutput how, const sim::Result& motion, double e
 
 // ---- pictures ----------------------------------------------------------------------------------
 
-// End of the motion that can be shown [s].
+// End of the motion that sets the scales [s]: a still has those of the whole scene.
 double end_of(const PictureOutput& p, const Scene& scene) {
     if (p.kind != PictureOutput::Kind::still) return p.span.to.value_or(scene.end_time);
-    return p.at.kind == Instant::Kind::time ? p.at.t : scene.end_time;
+    return p.at.kind == Instant::Kind::time ? std::max(p.at.t, scene.end_time) : scene.end_time;
 }
 
 // A strip of one collision at a time needs more rows than one of the whole time, a page more instants. A still at an

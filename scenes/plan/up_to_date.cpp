@@ -51,9 +51,7 @@ double end_of_inputs(const Output& output, const Scene& scene) {
     if (std::holds_alternative<ImpactsOutput>(output) || std::holds_alternative<SummaryOutput>(output))
         return run_end(scene);
     if (const auto* table = std::get_if<TrajectoryOutput>(&output)) return unless(!table->times.empty());
-    if (const auto* p = std::get_if<PictureOutput>(&output))
-        return unless(p->kind == PictureOutput::Kind::still ? p->at.kind == Instant::Kind::time
-                                                            : p->span.to.has_value());
+    if (const auto* p = std::get_if<PictureOutput>(&output)) return unless(p->span.to.has_value());
     if (const auto* figure = std::get_if<FigureOutput>(&output)) return unless(figure->series.to.has_value());
     return scene.end_time;
 }

@@ -11,23 +11,7 @@
 #include "sim/observe/recorder.hpp"
 
 namespace beamcam::scenes {
-namespace {
-
 namespace fs = std::filesystem;
-
-// An instant with few digits between these; empty: they are too close. The bound of reproducible motions may come a
-// little earlier in a shorter run.
-std::string instant_between(double least, double most) {
-    const double until = 0.98 * most;
-    for (int digits = 2; digits <= 6; ++digits) {
-        const double step = std::pow(10, std::floor(std::log10(until)) - digits + 1),
-                     rounded = (std::ceil(until / step) - 1) * step;
-        if (rounded > least && rounded > 0.9 * until) return fmt::format("{:.{}g} s", rounded, digits);
-    }
-    return {};
-}
-
-}  // namespace
 
 EntryTest::EntryTest(const Baselines& baselines, const Baseline& entry, const RegressionOptions& options,
                      const std::string& renderer, output::FileList& report_files, EntryResult& result)
@@ -101,13 +85,13 @@ void EntryTest::judge(MotionPool& pool, const RunOptions& options) {
     std::vector<sim::Result> results;
     for (const std::size_t request : requests_) results.push_back(pool.take(request));
     const sim::Result& run = results[*plan_.run];
-    if (test_.result.picture) require_reproducible(run, until_);
+    if (test_.result.picture) require_reproducible(run);
     if (needs_motion()) {
         judge_motion(test_, 0, "", run.tables[recorded_], run.impacts, until_, run.reproducible_until);
         for (const PlannedPictures& p : plan_.pictures)
             for (std::size_t i = 0; i < p.compare.size(); ++i) {
                 const sim::Result& other = results[p.motions[i]];
-                require_reproducible(other, p.end_time);
+                require_reproducible(other);
                 judge_motion(test_, i + 1, p.compare[i].label + ": ", other.tables.back(), other.impacts, p.end_time,
                              other.reproducible_until);
             }
@@ -125,26 +109,19 @@ void EntryTest::judge_sweep(int threads, Progress& progress) {
     update();
 }
 
-void EntryTest::require_reproducible(const sim::Result& motion, double until) const {
+void EntryTest::require_reproducible(const sim::Result& motion) const {
     const std::vector<sim::Interval>& lost = motion.not_reproducible;
-    if (!test_.references.is_updated() || lost.empty() || lost.front().from >= until) return;
-    const std::string end = instant_between(last_shown(), lost.front().from);
-    const std::string remedy =
-        end.empty() ? "choose an earlier instant"
-                    : fmt::format("add {} to the entry", test_.entry.set.empty()
-                                                             ? fmt::format("\"set\": [\"time.end={}\"]", end)
-                                                             : fmt::format("\"time.end={}\" to \"set\"", end));
-    throw render::PictureError(
-        fmt::format("not accepted: it depends on the motion until {:.6g} s, which is {}; {}, or "
-                    "guard a trajectory or a sweep",
-                    until, motion.reproducibility, remedy));
+    if (!test_.references.is_updated() || lost.empty() || lost.front().from >= last_shown()) return;
+    throw render::PictureError(fmt::format(
+        "not accepted: it shows the motion until {:.6g} s, which is {}; choose an earlier instant, or guard a "
+        "trajectory or a sweep",
+        last_shown(), motion.reproducibility));
 }
 
 double EntryTest::last_shown() const {
-    double last = 0;
-    for (const PlannedPictures& p : plan_.pictures)
-        for (const double t : p.times.frames) last = std::max(last, t);
-    return last;
+    if (plan_.pictures.empty()) return until_;
+    const FilmTimes& times = plan_.pictures.front().times;
+    return std::max(times.frames.back(), times.chart.back());
 }
 
 // ---- verdicts --------------------------------------------------------------------------------------

@@ -41,9 +41,9 @@ class EntryTest {
     sim::Request& run_request() { return plan_.motions[*plan_.run].request; }  // of the scene's motion
     void request_record();
     void request_compared_records();
-    // An update throws render::PictureError if the motion is not reproducible up to `until`.
-    void require_reproducible(const sim::Result& motion, double until) const;
-    double last_shown() const;  // the last instant of the pictures [s]
+    // An update throws render::PictureError if the motion is not reproducible as far as the entry shows it.
+    void require_reproducible(const sim::Result& motion) const;
+    double last_shown() const;  // the last instant of the picture [s]
     void update();
     // The entry cannot be judged; the program ends with `exit_code`.
     void fail(const std::string& reason, Verdict verdict = Verdict::different, int exit_code = kDiffers);
@@ -55,7 +55,7 @@ class EntryTest {
     PlanWithFigures plan_;
     std::vector<std::size_t> requests_;  // numbers of the plan's motions in the pool
     std::size_t recorded_ = 0;           // index of the recorded table in the plan's request
-    double until_ = 0;                   // the last instant that the entry depends on [s]
+    double until_ = 0;                   // the end of the motion on which the entry depends [s]
 };
 
 }  // namespace beamcam::scenes

@@ -196,8 +196,7 @@ TEST(SweptColumn, LiesBesideTheSceneAndInTheWorkingDirectoryOfTheCommand) {
     folder.write("rel/w.csv", "index;speed [rpm];note\n1;382;a\n2;401,1;b\n;;\n");
     const std::string rest =
         R"("beam": {"model": "rigid"}, "contact": {"model": "restitution"}, "cam": {"eccentricity": "2 mm"},)";
-    folder.write("rel/x.json",
-                 "{" + rest + R"("sweep": {"over": [{"key": "cam.speed", "values": "@w.csv:speed [rpm]"}],
+    folder.write("rel/x.json", "{" + rest + R"("sweep": {"over": [{"key": "cam.speed", "values": "@w.csv:speed [rpm]"}],
                                                "transient": {"cam_turns": 5}, "keep": {"cam_turns": 1}}})");
     const Finished done = shell(folder, "$BEAMCAM sweep rel/x.json -q");
     ASSERT_EQ(done.code, 0) << done.err;

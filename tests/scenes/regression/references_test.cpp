@@ -42,7 +42,7 @@ TEST(References, AreFilesThatPeopleKnowAndTheBaselinesStayAsTheyAre) {
     EXPECT_THAT(names_in(folder / "b/motion"), ElementsAre("digests.json", "impacts.json", "motion.csv"));
     EXPECT_EQ(slurp(folder / "b/motion/digests.json"), "{}\n");
     EXPECT_THAT(slurp(folder / "b/fall/digests.json"), HasSubstr("\"" + flat_fingerprint().id() + "\": ["));
-    EXPECT_THAT(slurp(folder / "b/fall/impacts.json"), HasSubstr("\"reproducible_until\": 0.2"));
+    EXPECT_THAT(slurp(folder / "b/fall/impacts.json"), HasSubstr("\"reproducible_until\": 0.35"));
 }
 
 TEST(References, FramesThatAreNotDrawnAnyMoreGoAndFilesOfTheUserStay) {

@@ -108,7 +108,7 @@ TEST(Regression, ReadsOnlyAsFarAsTheEntryShows) {
     const Folder folder;
     folder.write(
         "b.json",
-        R"({"entries": {"e": {"scene": {"time": {"end": 1000}}, "output": {"type": "still", "at": 0.05, "size": [64, 64], "view": {"style": "flat"}}}}})");
+        R"({"entries": {"e": {"scene": {"time": {"end": 1000}}, "output": {"type": "frames", "to": 0.05, "fps": 20, "size": [64, 64], "view": {"style": "flat"}}}}})");
     EXPECT_EQ(shell(folder, "timeout 20 $BEAMCAM test b.json --update e").code, 7);
     EXPECT_THAT(slurp(folder / "b/e/impacts.json"), HasSubstr("\"reproducible_until\": 0.05"));
 }
@@ -147,35 +147,11 @@ TEST(Regression, PicturesOfWhatIsNotReproducibleAreRejected) {
   "table": {"scene": {"time": {"end": 8}}, "output": {"type": "trajectory", "rate": 10, "channels": ["theta"]}}}})");
     const Finished updated = shell(folder, "$BEAMCAM test b.json --update all");
     EXPECT_EQ(updated.code, 7);
-    EXPECT_THAT(updated.out, AllOf(HasSubstr("not accepted: it depends on the motion until 8 s"),
+    EXPECT_THAT(updated.out, AllOf(HasSubstr("not accepted: it shows the motion until 8 s"),
                                    HasSubstr(" s, not from "), HasSubstr("choose an earlier instant")));
     EXPECT_FALSE(std::filesystem::exists(folder / "b/late"));
     EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --filter early table").code, 0);
     EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --filter late").code, 7);
-}
-
-// A still at an impact depends on the whole motion. What the message recommends works as written.
-TEST(Regression, TheRemedyOfARejectedStillWorks) {
-    const Folder folder;
-    for (const std::string set : {"", R"("set": ["cam.phase=0.1"], )"}) {
-        const auto write = [&](const std::string& changes) {
-            folder.write("b.json", R"({"entries": {"touch": {)" + changes + R"("scene": {"time": {"end": 8}},
-                "output": {"type": "still", "at": "impact:1", "size": [64, 64], "view": {"style": "flat"}}}}})");
-        };
-        write(set);
-        const Finished rejected = shell(folder, "$BEAMCAM test b.json --update touch");
-        EXPECT_EQ(rejected.code, 7);
-        EXPECT_THAT(rejected.out, HasSubstr("missing     touch"));
-        const std::size_t at = rejected.out.find("\"time.end=");
-        ASSERT_NE(at, std::string::npos) << rejected.out;
-        const std::string change = rejected.out.substr(at, rejected.out.find('"', at + 1) + 1 - at);
-        EXPECT_THAT(rejected.out, HasSubstr(set.empty() ? "add \"set\": [" + change + "] to the entry"
-                                                        : "add " + change + " to \"set\""));
-        write(set.empty() ? "\"set\": [" + change + "], " : R"("set": ["cam.phase=0.1", )" + change + "], ");
-        EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --update touch").code, 7);
-        EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --strict").code, 0);
-        std::filesystem::remove_all(folder / "b");
-    }
 }
 
 TEST(Regression, MistakesInBaselinesAreReportedWithTheirPlaces) {
