@@ -30,6 +30,7 @@ constexpr double kFarRestitution = 0.2;  // of the pre-set restitution from that
 constexpr double kSmallestInertia = 1e-60, kLargestInertia = 1e60;  // mass [kg], moment of inertia [kg m²]
 constexpr double kSmallestScale = 1e-30, kLargestScale = 1e30;      // frequency [rad/s], penetration [m]
 constexpr double kSpeedOfLight = 299792458;                         // [m/s]
+constexpr double kShallowest = 1e-8;  // of the length: a touch that is not lost in the rounding of positions
 // Positions along the beam are sums with the hub's radius, and the gap is a difference of distances: beyond these
 // multiples of the beam's length, rounding leaves fewer than five digits of them.
 constexpr double kMaxHubRadius = 1e6, kMaxCamSize = 1e9;
@@ -349,6 +350,11 @@ void check_contact_scales(Issues& out, const Problem& p) {
     const char* path = p.contact.stiffness || !p.cam->youngs_modulus ? "contact.stiffness" : "cam.youngs_modulus";
     check_product(out, kSmallestScale, kLargestScale, "the depth of a touch at 1 m/s", depth, "m",
                   {{path, p.contact.stiffness.value_or(k)}});
+    if (!out.has_errors() && depth < kShallowest * p.beam.length)
+        out.error(path,
+                  fmt::format("a touch at 1 m/s is {:.2g} m deep, less than {:g} of the beam's length, and lost in "
+                              "rounding; \"model\": \"restitution\" describes contacts without depth",
+                              depth, kShallowest));
 }
 
 void check_products(Issues& out, const Problem& p, const CamShape* shape) {

@@ -250,6 +250,11 @@ TEST(Validate, NamesTheNumberThatMakesAScaleImpossible) {
     p.beam.length = 1;
     p.contact.stiffness = 5e-324;
     for (const Issue& f : validate(p)) EXPECT_EQ(f.message.find("inf"), std::string::npos) << f.message;
+    p.contact.stiffness = 1e25;
+    const std::vector<Issue> shallow = validate(p);
+    ASSERT_EQ(shallow.size(), 1u);
+    EXPECT_EQ(shallow[0].path, "contact.stiffness");
+    EXPECT_NE(shallow[0].message.find("lost in rounding"), std::string::npos);
 }
 
 TEST(Validate, TakesBeamsOfNanometresAndKilometres) {
