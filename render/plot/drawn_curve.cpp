@@ -25,7 +25,7 @@ std::vector<bool> not_covered(const std::vector<Vec2>& points, double apart) {
 
 // The radius of markers without a line: smaller where they are so many that they would join.
 double marker_radius(const std::vector<Vec2>& points, const Box& plot, double usual) {
-    constexpr double kLeast = 0.4;  // of the usual one: below that, shapes are not told apart
+    constexpr double kLeast = 0.55;  // of the usual one: below that, shapes are not told apart
     const auto seen = std::ranges::count_if(points, [&](const Vec2 p) { return inside(plot, p, 0.5); });
     return std::clamp(0.5 * plot.w / std::max<double>(1, static_cast<double>(seen)), kLeast * usual, usual);
 }
@@ -192,7 +192,7 @@ void DrawnCurve::draw_markers(const Box& plot, const PlotStyle& style, Painter& 
         if (!toned)
             draw_marker(on, style, look(s.look).marker, p, radius, curve_pen(s, style).color, s.look % 2 == 1);
         else if (std::isfinite(value_[i]))
-            draw_marker(on, style, look(s.look).marker, p, 0.8 * style.marker, map_color(value_[i]), false);
+            draw_marker(on, style, look(s.look).marker, p, style.marker, map_color(value_[i]), false);
     }
 }
 

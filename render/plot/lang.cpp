@@ -137,10 +137,10 @@ constexpr Phrase kPhrases[] = {
     {"{}, impact $k$", "{}，第 $k$ 次冲击"},
     {"{}, impact $k$ + 1", "{}，第 $k$ + 1 次冲击"},
     // legends, marks and titles of panels
-    {"along the rod", "沿杆"},
-    {"as printed", "原文公式"},
     {"bending and contact", "弯曲与接触能"},
     {"coinciding", "重合"},
+    {"completed", "补全各项"},
+    {"corrected", "沿杆"},
     {"error, against $N$ = {}", "误差（相对 $N$ = {}）"},
     {"external work", "外功"},
     {"first collision", "首次碰撞"},
@@ -149,6 +149,7 @@ constexpr Phrase kPhrases[] = {
     {"No samples to draw; motions: {}", "没有可绘制的点；运动：{}"},
     {"on the beam", "梁上"},
     {"on the cam", "凸轮上"},
+    {"printed", "原文公式"},
     {"reference", "参考解"},
     {"rigid, factor 2", "刚性，2 倍"},
     {"simulation", "仿真"},
@@ -156,7 +157,6 @@ constexpr Phrase kPhrases[] = {
     {"sum − work", "总和 − 外功"},
     {"sweep", "扫描"},
     {"target", "目标"},
-    {"terms completed", "补全各项"},
     {"unknown", "未知"},
     {"unstable", "不稳定"},
     // channels

@@ -45,11 +45,12 @@ Panel work_precision(const sim::Accuracy& a, Lang lang) {
 }
 
 Panel mode_counts(const sim::Accuracy& a, Lang lang) {
-    Panel panel{.x = {.label = "$N$", .counts = true},
+    Panel panel{.title = phrase(lang, "error, against $N$ = {}", a.most_modes),
+                .x = {.label = "$N$", .counts = true},
                 .y = {.label = error_label(a, lang), .scale = Scale::logarithmic},
                 .right = Axis{.label = phrase(lang, kTime), .scale = Scale::logarithmic},
                 .name = "modes"};
-    Series error{.label = phrase(lang, "error, against $N$ = {}", a.most_modes), .every_point = true},
+    Series error{.name = "error", .every_point = true},
         time{.name = "run time", .look = 1, .every_point = true, .right = true};
     for (const sim::ModesRow& row : a.modes) {
         if (!row.error) continue;

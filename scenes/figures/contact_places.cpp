@@ -143,9 +143,10 @@ FigureDrawing prepare_places(const Scene& scene, const FigureOutput&, MotionRequ
 
 }  // namespace
 
-extern const FigureType kContactPlaces{
-    "contact-places",
-    "Contact point on the beam from its root, and on the cam from the ray $C$$B$, coloured by the normal force",
-    needs_cam, prepare_places};
+extern const FigureType kContactPlaces{"contact-places",
+                                       "Contact point on the beam from its root, and on the cam from the ray $C$$B$, "
+                                       "coloured by the normal force; $t_{1}$: the "
+                                       "first touch",
+                                       needs_cam, prepare_places};
 
 }  // namespace beamcam::scenes

@@ -40,9 +40,8 @@ struct Curves {
     const char* label;
     int look;  // the line style
 };
-constexpr std::array kCurves{Curves{Printing::corrected, "along the rod", 0},
-                             Curves{Printing::completed, "terms completed", 2},
-                             Curves{Printing::printed, "as printed", 1}};
+constexpr std::array kCurves{Curves{Printing::corrected, "corrected", 0}, Curves{Printing::completed, "completed", 2},
+                             Curves{Printing::printed, "printed", 1}};
 
 // Deflection [mm] and slope along the beam [10⁻³] over both spans.
 struct DeflectionCurves {
@@ -53,14 +52,12 @@ DeflectionCurves shape_of(const sim::Problem& problem, double angle, double supp
     const double reach = problem.beam.length * std::cos(angle);
     const bool first = c.printing == Printing::corrected;
     DeflectionCurves out;
-    const std::string at = "$l_{1}$ = " + length_text(support);
-    out.v = {.name = fmt::format("{}, {}", at, phrase(lang, c.label)),
+    out.v = {.name = fmt::format("$l_{{1}}$ = {}, {}", length_text(support), phrase(lang, c.label)),
              .look = c.look,
              .solid = first,
              .weight = first ? 1 : 0.9,
              .color = render::figure::look(static_cast<int>(i)).color};
     out.slope = out.v;
-    if (first) out.v.label = at;
     for (const bool overhang : {false, true}) {
         const double from = overhang ? support : 0, to = overhang ? reach : support;
         for (int k = 0; k < kPerSpan; ++k) {
@@ -82,7 +79,7 @@ Figure deflection_figure(const Subject& subject, const MotionResults&) {
     Panel shape{.x = {.label = phrase(lang, "horizontal distance $x$ from $O$ / m"), .tight = true},
                 .y = {.label = "$v$ / mm"},
                 .rules = {{.at = 0}}},
-        slope{.x = shape.x, .y = {.label = "d$v$/d$s$ / 10^{−3}"}, .rules = {{.at = 0}}, .legend = several};
+        slope{.x = shape.x, .y = {.label = "d$v$/d$s$ / 10^{−3}"}, .rules = {{.at = 0}}};
     for (std::size_t i = 0; i < kSupports.size(); ++i) {
         const double support = kSupports[i] * reach;
         for (const Curves& c : curves) {
@@ -90,21 +87,26 @@ Figure deflection_figure(const Subject& subject, const MotionResults&) {
             shape.series.push_back(std::move(s.v));
             slope.series.push_back(std::move(s.slope));
         }
-        shape.marks.push_back({.x = support, .y = 0, .look = static_cast<int>(i)});
+        shape.marks.push_back({.x = support, .label = length_text(support), .look = static_cast<int>(i)});
     }
+    // Room for the labels of the marks.
+    render::Extent drawn;
+    for (const Series& curve : shape.series) drawn.add(curve.y);
+    shape.y.to = drawn.high + 0.15 * (drawn.high - drawn.low);
     // The key to the dashes, in black.
     for (std::size_t k = 0; several && k < curves.size(); ++k)
-        slope.series.push_back({.label = phrase(lang, curves[k].label),
+        shape.series.push_back({.label = phrase(lang, curves[k].label),
                                 .look = curves[k].look,
                                 .solid = curves[k].printing == Printing::corrected,
                                 .color = render::rgb(0x000000)});
-    Figure figure{
-        .title = fmt::format("Static deflection across the beam and slope along it; inclined by {}°{}, hinged at $O$, "
-                             "supported at $x$ = $l_{{1}}$",
-                             number(at.angle * 180 / M_PI, 4), at.tangent ? ", tangent to the centred disc" : ""),
-        .panels = lettered({std::move(shape), std::move(slope)}),
-        .share_x = true,
-        .aspect = 1.15};
+    Figure figure{.title = fmt::format(
+                      "Static deflection across the beam (a) and slope along it (b); inclined by {}°{}, hinged at "
+                      "$O$, supported at the mark, $x$ = $l_{{1}}${}",
+                      number(at.angle * 180 / M_PI, 4), at.tangent ? ", tangent to the centred disc" : "",
+                      several ? "; printed: eq. (5); completed: with its missing terms; corrected: along the rod" : ""),
+                  .panels = lettered({std::move(shape), std::move(slope)}),
+                  .share_x = true,
+                  .aspect = 1.15};
     add_caption(figure, std::vector{problem});
     return figure;
 }

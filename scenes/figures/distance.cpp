@@ -20,6 +20,10 @@ int fall_rows(double end) { return static_cast<int>(std::clamp(end / 2.5e-4, 4e3
 constexpr int kTrial = 5;         // points of the first round: 0.21 … 0.25 m in the paper
 constexpr int kRefined = 8;       // intervals between two trial points in the second round
 constexpr double kShown = 0.012;  // before the touch, and half as long after it [s]; less of a short fall
+constexpr const char* kDistanceTitle =
+    "Distance of points of the freely falling beam from the cam near the first touch (a), and when it is zero (b): "
+    "points of the trial in the colours of (a), their refinement, and the located touch";
+constexpr int kLocatedLook = 6;  // look of the located touch
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 // Places on the beam at the paper's spacing of L/100, as far as the touch may be from where the rigid beam at the
@@ -111,7 +115,8 @@ struct Trial {
     std::vector<double> when;                // [s], as history.x; kNever: not within the scene
     std::size_t first = 0, first_trial = 0;  // of all the earliest, and of the first round's
 
-    double spacing() const { return history.x[1] - history.x[0]; }
+    // Of the k-th point, if it is of the first round.
+    static int look(std::size_t k) { return static_cast<int>(k) / kRefined; }
 };
 Trial try_points(const sim::Result& fall, const Stations& searched, const std::vector<std::size_t>& where,
                  std::vector<double> times, const sim::Problem& problem) {
@@ -153,7 +158,7 @@ Panel distance_panel(const Trial& trial) {
     for (std::size_t k = 0; k < f.x.size(); k += kRefined) {
         Series& s = panel.series.emplace_back();
         s.label = "$x$ = " + length_text(f.x[k]);
-        s.look = static_cast<int>(k) / kRefined;
+        s.look = Trial::look(k);
         for (std::size_t i = 0; i < f.t.size(); ++i)
             if (is_shown(f.t[i])) s.add(f.t[i] * time.factor, f.distance[k][i] * length.factor);
     }
@@ -170,23 +175,25 @@ void widen(render::Axis& axis, const std::vector<double>& values) {
 // When each point reaches the cam: the first round as points, the refinement beside its earliest as a line.
 Panel arrivals_panel(const Trial& trial, const sim::Result& strikes, Lang lang) {
     const Measure time = measure_of("s", trial.when[trial.first]);
-    Series coarse{.line = false, .every_point = true}, refined{.solid = true};
+    Panel panel{.x = {.label = "$x$ / m"},
+                .y = {.label = axis_label("$t_{0}$", time.unit)},
+                .series = {{.weight = 0.6, .color = render::figure::kMuted}},
+                .legend = false};
+    Series all;
     for (std::size_t k = 0; k < trial.when.size(); ++k) {
         if (trial.when[k] == kNever) continue;
         const double x = trial.history.x[k], t = trial.when[k] * time.factor;
-        if (k % kRefined == 0) coarse.add(x, t);
-        if (k + kRefined >= trial.first_trial && k <= trial.first_trial + kRefined) refined.add(x, t);
+        if (k + kRefined >= trial.first_trial && k <= trial.first_trial + kRefined) panel.series.front().add(x, t);
+        if (k % kRefined > 0) continue;
+        all.add(x, t);
+        panel.series.push_back({.x = {x}, .y = {t}, .look = Trial::look(k), .line = false, .every_point = true});
     }
-    Panel panel{.x = {.label = "$x$ / m"},
-                .y = {.label = axis_label("$t_{0}$", time.unit)},
-                .series = {refined, coarse},
-                .legend = false};
-    widen(panel.x, coarse.x), widen(panel.y, coarse.y);
+    widen(panel.x, all.x), widen(panel.y, all.y);
     if (!strikes.impacts.empty())
         panel.marks.push_back({.x = strikes.impacts.front().x,
                                .y = strikes.impacts.front().t_start * time.factor,
                                .label = phrase(lang, "located"),
-                               .look = 1});
+                               .look = kLocatedLook});
     return panel;
 }
 
@@ -202,8 +209,13 @@ FigureDrawing prepare_distance(const Scene& scene, const FigureOutput&, MotionRe
         const auto& [problem, units, lang, end] = subject;
         const sim::Result &falls = *results[fall], &strikes = *results[touching];
         const Trial trial = try_points(falls, searched, where, instants(all), problem);
-        Figure figure{.panels = lettered({distance_panel(trial), arrivals_panel(trial, strikes, lang)}),
+        Figure figure{.title = kDistanceTitle,
+                      .panels = lettered({distance_panel(trial), arrivals_panel(trial, strikes, lang)}),
                       .aspect = 1.25};
+        if (!strikes.impacts.empty())
+            figure.title +=
+                fmt::format(". The first touch is at $x$ = {} m after {} s", number(strikes.impacts.front().x, 4),
+                            grouped(strikes.impacts.front().t_start, 6));
         add_caption(figure, {{&problem, &strikes}});
         return figure;
     };
@@ -221,10 +233,6 @@ std::optional<std::string> needs_tangent(const Scene& scene) {
 
 }  // namespace
 
-extern const FigureType kDistance{
-    "distance",
-    "Distance of points of the freely falling beam from the cam near the first touch (a), and when it is zero (b), by "
-    "trial points, their refinement and the located touch",
-    needs_tangent, prepare_distance};
+extern const FigureType kDistance{"distance", kDistanceTitle, needs_tangent, prepare_distance};
 
 }  // namespace beamcam::scenes

@@ -34,7 +34,7 @@ Panel panel_of(const sim::Exponents& e, std::size_t first, std::size_t last, Lan
     const auto begin = std::ranges::lower_bound(e.time, 0.1 * e.duration) - e.time.begin();
     for (std::size_t i = first; i < last; ++i) {
         if (!std::isfinite(e.lambda[i])) continue;
-        const int look = static_cast<int>(i);
+        const int look = static_cast<int>(i - first);
         panel.series.push_back({.label = value_text(e, i),
                                 .x = {e.time.begin() + begin, e.time.end()},
                                 .y = {e.history[i].begin() + begin, e.history[i].end()},
@@ -66,6 +66,8 @@ render::figure::Figure exponents_figure(const sim::Exponents& e, const Subject& 
         .title = fmt::format("Convergence of the Lyapunov exponents over {} s with {} impacts", number(e.duration, 4),
                              e.impacts),
         .panels = lettered(std::move(panels)),
+        .stack = true,
+        .share_x = true,
         .aspect = aspect};
     add_caption(figure, std::vector{subject.problem});
     figure.accuracy = "Errors, which are the bands, are standard errors of block averages.";

@@ -1,5 +1,6 @@
 // Falling without a cam: the hub angle of the flexible and the rigid beam.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,7 @@
 namespace beamcam::scenes {
 namespace {
 
+constexpr const char* kFallTitle = "Hub angle without the cam";
 constexpr int kFallPoints = 2001;  // points: a column of print has fewer dots
 constexpr double kAround = 12e-6;  // half of the enlarged interval about the rigid crossing [s]
 
@@ -102,6 +104,15 @@ std::optional<Panel> close_up(const Falls& falls, const MotionResults& results) 
     return panel;
 }
 
+std::string fall_title(const Falls& falls, const MotionResults& results) {
+    std::vector<std::string> zeros;
+    for (const Fall& fall : falls.shown)
+        if (const auto zero = fall.zero(results))
+            zeros.push_back(fmt::format("{} s ({})", grouped(*zero, 6), fall.label));
+    return fmt::format("{}{}{}{}", kFallTitle, zeros.empty() ? "" : "; it is zero after ", fmt::join(zeros, ", "),
+                       falls.paper ? "; factor 2: between torque and inertia" : "");
+}
+
 Panel fall_panel(const Falls& falls, const MotionResults& results, const Subject& subject) {
     const Measure angle = measure_in(subject.units, "rad");
     Panel panel{
@@ -124,7 +135,7 @@ FigureDrawing prepare_fall(const Scene& scene, const FigureOutput&, MotionReques
         std::vector<Panel> panels{fall_panel(falls, results, subject)};
         if (auto closer = falls.closely ? close_up(falls, results) : std::nullopt) panels.push_back(std::move(*closer));
         const double aspect = panels.size() > 1 ? 1.25 : 0.74;
-        Figure figure{.panels = lettered(std::move(panels)), .aspect = aspect};
+        Figure figure{.title = fall_title(falls, results), .panels = lettered(std::move(panels)), .aspect = aspect};
         add_caption(figure, runs);
         return figure;
     };
@@ -139,6 +150,6 @@ std::optional<std::string> needs_fall(const Scene& scene) {
 
 }  // namespace
 
-extern const FigureType kFreeFall{"free-fall", "Hub angle without the cam", needs_fall, prepare_fall};
+extern const FigureType kFreeFall{"free-fall", kFallTitle, needs_fall, prepare_fall};
 
 }  // namespace beamcam::scenes

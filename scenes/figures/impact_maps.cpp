@@ -45,8 +45,7 @@ std::vector<Panel> impact_maps(const Subject& subject, const sim::Result& result
     const auto speed = [](const char* of) { return axis_label(of, "m/s"); };
     const Measure turning = measure_in(units, "rad/s");
     Panel loss = map_panel(phrase(lang, "restitution") + "; – – $c$_{r}", speed("$v$"), "$c$"),
-          next = map_panel(phrase(lang, "next collision") + "; —\u00A0$v_{k+1}$\u00A0=\u00A0$v_{k}$", speed("$v_{k}$"),
-                           speed("$v_{k+1}$")),
+          next = map_panel(phrase(lang, "next collision"), speed("$v_{k}$"), speed("$v_{k+1}$")),
           phase = map_panel(phrase(lang, "approach speed"), kPhaseLabel, speed("$v$")),
           hub = map_panel(phrase(lang, "hub speed"), kPhaseLabel, axis_label("$\\dot{θ}$", turning.unit));
     for (const sim::Impact& hit : strikes(problem, result.impacts, from, to)) {
@@ -95,7 +94,8 @@ Panel histogram(std::string label, const std::vector<double>& values, double end
     Series steps;
     for (std::size_t k = 0; k < bins; ++k)
         for (const std::size_t edge : {k, k + 1}) steps.add(width * static_cast<double>(edge), counts[k]);
-    return {.x = {.label = std::move(label), .tight = true},
+    return {.title = fmt::format("$n$ = {}", values.size()),
+            .x = {.label = std::move(label), .tight = true},
             .y = {.label = phrase(lang, "impacts"), .with_zero = true, .counts = true},
             .series = {steps},
             .bands = {{.x = steps.x, .low = std::vector<double>(steps.x.size(), 0), .high = steps.y}},
@@ -129,13 +129,15 @@ FigureDrawing prepare_histograms(const Scene& scene, const FigureOutput& how, Mo
 extern const FigureType kImpactMaps{
     .name = "impact-maps",
     .title =
-        "Impacts by their approach speed $v$ and the phase $φ$ of the cam: restitution, successive collisions, speeds",
+        "Impacts by their approach speed $v$ and the phase $φ$ of the cam; $c$: restitution of the point of contact, "
+        "above 1 where the beam leaves faster than it came, $c$_{r}: that of the contact law, grey: "
+        "$v_{k+1}$ = $v_{k}$",
     .refusal = needs_cam,
     .maker = prepare_maps,
     .keys = {"from", "to"}};
 extern const FigureType kImpactHistograms{
     .name = "impact-histograms",
-    .title = "Histograms of the approach speed and of the phase $φ$ of the cam at impacts",
+    .title = "Histograms of the approach speed and of the phase $φ$ of the cam at $n$ impacts",
     .refusal = needs_cam,
     .maker = prepare_histograms,
     .keys = {"from", "to"}};

@@ -236,6 +236,12 @@ class Drawing : private Sketch {
 };
 
 constexpr double kAspect = 0.98;
+constexpr const char* kSymbols =
+    "The system, deflection exaggerated; $X$, $Y$: fixed axes; $x$′, $y$′: axes of the hub, whose radius is $a$ and "
+    "whose angle is $θ$; $L$: length of the beam; $v$: its deflection; $g$: gravity";
+constexpr const char* kSymbolsOfCam =
+    "; $C$: axis of the cam, at the distance $D$ from $O$; $B$: centre of its disc; $R$: radius; $e$: eccentricity; "
+    "$ω$: speed";
 
 // The magnified disc's radius is about an eighth of the page's shorter side.
 double letter_of(const FigureOutput& how) {
@@ -250,7 +256,9 @@ double letter_of(const FigureOutput& how) {
 
 FigureDrawing prepare_schematic(const Scene&, const FigureOutput& how, MotionRequests&) {
     return [letter = letter_of(how)](const Subject& subject, const MotionResults&) -> Figure {
-        Figure figure{.panels = {{.shapes = Drawing(subject.problem, letter).shapes()}}, .aspect = kAspect};
+        Figure figure{
+            .title = kSymbols, .panels = {{.shapes = Drawing(subject.problem, letter).shapes()}}, .aspect = kAspect};
+        if (subject.problem.cam) figure.title += kSymbolsOfCam;
         add_caption(figure, std::vector{subject.problem});
         return figure;
     };

@@ -85,12 +85,13 @@ void SeriesAbscissa::share(Figure& figure, const sim::Problem& problem, const re
         for (const Series& curve : each.series) range.add(curve.x);
     double largest = std::max(std::abs(range.low), std::abs(range.high));
     // A logarithmic panel omits what is not positive, but has the same axis.
-    const double air = channel_ && !is_phase() ? kAir * (range.high - range.low) : 0;  // none at a limit
+    // None at a limit, or where time begins at zero.
+    const double air = !channel_ && range.low == 0 ? 0 : kAir * (range.high - range.low);
     // Seconds, as usual in print, unless the interval is short.
     if (!channel_ && range.high - range.low >= kShort) largest = 1;
-    if (is_phase()) range.low = 0, range.high = 1;
     const double extent = range.high - range.low;
-    range.low = low_.value_or(range.low - air), range.high = high_.value_or(range.high + air);
+    range.low = low_.value_or(is_phase() ? 0 : range.low - air);
+    range.high = high_.value_or(is_phase() ? 1 : range.high + air);
     // One limit beyond all curves still is the end of the axis.
     if (low_ && !high_ && range.low >= range.high) range.high = range.low + extent;
     if (high_ && !low_ && range.low >= range.high) range.low = range.high - extent;

@@ -67,7 +67,8 @@ class SeriesPanelMaker {
           first_(plan.motions[planned.motions.front()]) {}
 
     std::vector<Panel> make() {
-        panel_.title = keys_.title;
+        panel_.title =
+            keys_.sums.size() == 1 && keys_.title.empty() ? phrase(plan_.lang, keys_.sums.front().label) : keys_.title;
         if (shows_some()) panel_.title = first_.label + (keys_.title.empty() ? "" : ": ") + keys_.title;
         if (!has_sums()) panel_.name = name(keys_.channels.front());
         if (keys_.logarithmic) panel_.y.scale = render::Scale::logarithmic;
@@ -76,7 +77,7 @@ class SeriesPanelMaker {
         add_side({planned_.left, keys_.channels, false});
         if (panel_.right) add_side({planned_.right, keys_.right, true});
         const auto labelled = [](const Series& curve) { return !curve.label.empty(); };
-        panel_.legend = has_sums() || std::ranges::count_if(panel_.series, labelled) > 1;
+        panel_.legend = std::ranges::count_if(panel_.series, labelled) > 1;
         if (has_sums()) panel_.share = 1 + 0.2 * static_cast<double>(keys_.sums.size());
         for (auto& rule : series_rules(plan_, planned_, results_)) panel_.rules.push_back(std::move(rule));
         std::vector<Panel> out;

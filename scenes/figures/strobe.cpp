@@ -1,6 +1,7 @@
 // The beam at several instants and the cam at both ends, in lines.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "render/mechanism/cam_outline.hpp"
 #include "render/mechanism/exaggeration.hpp"
@@ -36,9 +37,35 @@ void add_cam(const sim::Pose& pose, const sim::Problem& problem, render::Color c
     to.line(from, mark, color, 0.6);
 }
 
+// Below the cam, the sense of its rotation.
+void add_rotation(const sim::Pose& pose, const sim::Problem& problem, Sketch& to, render::Bounds& extent) {
+    const Vec2 centre = problem.cam->profile ? pose.cam_centre : pose.disc_centre;
+    const double radius = 1.2 * (problem.cam->profile ? render::cam_reach(problem) : problem.cam->radius);
+    const double middle = -0.5 * std::numbers::pi, half = problem.cam->speed > 0 ? -0.5 : 0.5;
+    to.add({.kind = Sketch::Kind::turn,
+            .centre = centre,
+            .radius = radius,
+            .from = middle - half,
+            .to = middle + half,
+            .color = Sketch::kInk});
+    to.label(centre - Vec2{0, radius}, "$ω$", {0, -0.8});
+    extent.add(centre, radius);
+}
+
 void add_beam(const sim::Pose& pose, render::Color color, Sketch& to, render::Bounds& extent) {
     for (const Vec2 p : pose.centreline) extent.add(p);
     to.add({.kind = Sketch::Kind::line, .points = pose.centreline, .color = color, .width = 1.6});
+}
+
+// Where the tip moves at the last instant.
+void add_way(const std::vector<sim::Pose>& poses, Sketch& to, render::Bounds& extent) {
+    const sim::Pose& last = poses.back();
+    const double turned = last.theta - poses[poses.size() - 2].theta;
+    if (turned == 0) return;
+    const Vec2 tip = last.centreline.back(),
+               way = std::copysign(0.1 * norm(tip), turned) * sim::perp(sim::unit(last.theta));
+    to.arrow(tip, tip + way, Sketch::kInk, 0.9);
+    extent.add(tip + way);
 }
 
 bool is_level(const Vec2& along) { return std::abs(along.x) > 0.5; }
@@ -73,13 +100,20 @@ void label_instants(const std::vector<sim::Pose>& poses, Sketch& to) {
         add_instant(first, render::fixed(first.t, decimals) + " s", to);
 }
 
-// Below the drawing, a length of 1, 2 or 5 times a power of ten, about a fifth of the beam's, and `step`, the time
-// between instants [s].
+// Below the drawing, the direction of gravity, a length of 1, 2 or 5 times a power of ten, about a fifth of the beam's,
+// and `step`, the time between instants [s].
 void add_scale(const sim::Problem& problem, const std::string& step, render::Bounds& extent, Sketch& to) {
     const double length = render::round_down_125(problem.beam.length / 5);
     const double y = extent.y0 - 0.14 * problem.beam.length, tick = 0.012 * problem.beam.length;
-    extent.add({extent.x0, y});
-    const Vec2 a{extent.x0, y}, b{extent.x0 + length, y};
+    Vec2 a{extent.x0, y};
+    extent.add(a);
+    if (problem.gravity != 0) {
+        const Vec2 down{0, std::copysign(0.06 * problem.beam.length, -problem.gravity)};
+        to.arrow(a - down, a + down, Sketch::kInk, 0.9);
+        to.label(a, "$g$", {0.8, 0});
+        a.x += 0.12 * problem.beam.length;
+    }
+    const Vec2 b = a + Vec2{length, 0};
     to.line(a, b, Sketch::kInk, 0.8);
     for (const Vec2 end : {a, b}) to.line(end - Vec2{0, tick}, end + Vec2{0, tick}, Sketch::kInk, 0.8);
     to.add({.kind = Sketch::Kind::label,
@@ -101,6 +135,8 @@ Panel strobe_panel(const std::vector<sim::Pose>& poses, const Subject& subject, 
         if (problem.cam && (k == 0 || k + 1 == poses.size())) add_cam(poses[k], problem, color, sketch, extent);
     }
     extent.add({0, 0}, hub);
+    if (problem.cam && problem.cam->speed != 0) add_rotation(poses.back(), problem, sketch, extent);
+    add_way(poses, sketch, extent);
     sketch.disc({0, 0}, hub, Sketch::kSteel, 0.8);
     sketch.dot({0, 0}, Sketch::kInk, 1.2);
     if (problem.cam) sketch.dot(problem.cam->centre);
@@ -127,7 +163,9 @@ FigureDrawing prepare_strobe(const Scene& scene, const FigureOutput& how, Motion
 
 extern const FigureType kStrobe{
     .name = "strobe",
-    .title = "The beam at equally spaced instants, from pale to dark, and the cam at both ends; deflection to scale",
+    .title =
+        "The beam at equally spaced instants, from pale to dark, and the cam at both ends; deflection to "
+        "scale; the arrow at the tip is its last movement",
     .refusal = no_refusal,
     .maker = prepare_strobe,
     .keys = {"from", "to"},

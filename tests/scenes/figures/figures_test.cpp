@@ -121,9 +121,8 @@ TEST(Figures, TheTrialMethodSearchesBesideItsFirstPoints) {
                                   "distance");
     const auto& arrivals = figure.panels[1];
     ASSERT_EQ(arrivals.marks.size(), 1u);
-    const auto& trial = arrivals.series[1];
-    EXPECT_LT(*std::ranges::min_element(trial.x), arrivals.marks[0].x);
-    EXPECT_GT(*std::ranges::max_element(trial.x), arrivals.marks[0].x);
+    EXPECT_LT(arrivals.series.at(1).x.at(0), arrivals.marks[0].x);  // the first point
+    EXPECT_GT(arrivals.series.back().x.at(0), arrivals.marks[0].x);
     EXPECT_LE(*std::ranges::min_element(arrivals.series[0].y), arrivals.marks[0].y + 0.05);  // [ms]
 }
 
@@ -274,8 +273,7 @@ TEST(Presets, ShowTheEnergiesThatTheSceneHas) {
                 for (const auto& series : panel.series) all += series.label + "; ";
         return all;
     };
-    EXPECT_EQ(labels(R"({"time": {"end": 0.4}})"),
-              "kinetic; potential; lost; external work; sum − work; bending and contact; ");
+    EXPECT_EQ(labels(R"({"time": {"end": 0.4}})"), "kinetic; potential; lost; external work; sum − work; ");
     EXPECT_EQ(labels(R"({"cam": null, "gravity": 0, "initial": {"angular_velocity": 1}, "time": {"end": 0.1}})"),
               "kinetic; potential; sum − work; ");  // a straight beam that turns is not bent
 }
@@ -289,7 +287,7 @@ TEST(Figures, PrintedSlopeJumpsAndTheCorrectedDoesNot) {
             if (std::abs(s.x[i] - s.x[i - 1]) < 1e-12) largest = std::max(largest, std::abs(s.y[i] - s.y[i - 1]));
         return largest;
     };
-    ASSERT_EQ(slope.size(), 12u);  // three curves of three supports, and their key
+    ASSERT_EQ(slope.size(), 9u);  // three curves of three supports
     for (std::size_t k = 0; k < 9; k += 3) {
         EXPECT_LT(jump(slope[k]), 1e-9) << k;      // along the rod
         EXPECT_LT(jump(slope[k + 1]), 1e-9) << k;  // with the missing terms
