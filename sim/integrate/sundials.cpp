@@ -26,6 +26,7 @@ namespace beamcam::sim {
 namespace {
 
 constexpr double kIgnoredWeight = 1e-30;  // in SUNDIALS, of components without error control
+constexpr int kMostFailures = 30;         // of the iteration: the first step of a beam at rest is far too long
 constexpr double kFarTime = 1e3;          // [s] a target beyond any step, in the direction of time
 
 // The Taylor polynomial of CVODE's steps. `numbers`: the instant of expansion, and the coefficients from the constant
@@ -186,6 +187,7 @@ class Cvode final : public Integrator, private Segment {
         check(CVodeSetUserData(memory_.get(), &call_), "the start");
         check(CVodeWFtolerances(memory_.get(), &Callbacks::weights), "the tolerances");
         check(CVodeSetMaxNumSteps(memory_.get(), 1000000), "the start");
+        check(CVodeSetMaxConvFails(memory_.get(), kMostFailures), "the start");
     }
 
     void keep_polynomial() {

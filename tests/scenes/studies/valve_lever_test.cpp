@@ -53,5 +53,18 @@ TEST(ValveLever, ShowsAMotionBelowAndOneAboveTheJump) {
     EXPECT_GT(result.extrema[1].min, 0);
 }
 
+// Nothing moves at first, so that a first step by the slope is far longer than the contact's damping allows.
+TEST(ValveLever, AllMethodsStartAtRest) {
+    sim::Problem p = valve_lever(1.5e-3);
+    sim::Request request;
+    request.end_time = 1e-3;
+    request.tables.push_back({{1e-3}, {*sim::channel_named("contact_force")}});
+    const double force = sim::simulate(p, request).tables[0].values[0][0];
+    for (const auto method : {sim::Method::rk8, sim::Method::cvode_adams, sim::Method::cvode_bdf}) {
+        p.solver.method = method;
+        EXPECT_NEAR(sim::simulate(p, request).tables[0].values[0][0], force, 1e-5 * force) << name(method);
+    }
+}
+
 }  // namespace
 }  // namespace beamcam::scenes
