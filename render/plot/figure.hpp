@@ -118,7 +118,6 @@ struct Shape {
     Vec2 shift = {};                // of the label, in sizes of its letters, y up
     HAlign align = HAlign::centre;
     VAlign valign = VAlign::middle;
-    bool small = false;  // label
 };
 
 struct Panel {

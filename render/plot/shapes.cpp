@@ -22,7 +22,7 @@ Bounds bounds_of(const std::vector<Shape>& shapes) {
 }
 
 TextStyle lettering_of(const Shape& s, const PlotStyle& style) {
-    return {.size = s.small ? style.numbers : style.letters, .color = s.color, .align = s.align, .valign = s.valign};
+    return {.size = style.letters, .color = s.color, .align = s.align, .valign = s.valign};
 }
 
 Vec2 place_of(const Shape& label, const TextStyle& l, const Camera& camera) {

@@ -1,5 +1,6 @@
 // The static deflection of the beam on a support; in the paper's scenes also by its eq. (5), as printed and completed.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <cmath>
@@ -80,6 +81,7 @@ Figure deflection_figure(const Subject& subject, const MotionResults&) {
                 .y = {.label = "$v$ / mm"},
                 .rules = {{.at = 0}}},
         slope{.x = shape.x, .y = {.label = "d$v$/d$s$ / 10^{−3}"}, .rules = {{.at = 0}}};
+    std::vector<std::string> supports;
     for (std::size_t i = 0; i < kSupports.size(); ++i) {
         const double support = kSupports[i] * reach;
         for (const Curves& c : curves) {
@@ -87,12 +89,9 @@ Figure deflection_figure(const Subject& subject, const MotionResults&) {
             shape.series.push_back(std::move(s.v));
             slope.series.push_back(std::move(s.slope));
         }
-        shape.marks.push_back({.x = support, .label = length_text(support), .look = static_cast<int>(i)});
+        shape.marks.push_back({.x = support, .look = static_cast<int>(i)});
+        supports.push_back(length_text(support));
     }
-    // Room for the labels of the marks.
-    render::Extent drawn;
-    for (const Series& curve : shape.series) drawn.add(curve.y);
-    shape.y.to = drawn.high + 0.15 * (drawn.high - drawn.low);
     // The key to the dashes, in black.
     for (std::size_t k = 0; several && k < curves.size(); ++k)
         shape.series.push_back({.label = phrase(lang, curves[k].label),
@@ -101,8 +100,9 @@ Figure deflection_figure(const Subject& subject, const MotionResults&) {
                                 .color = render::rgb(0x000000)});
     Figure figure{.title = fmt::format(
                       "Static deflection across the beam (a) and slope along it (b); inclined by {}°{}, hinged at "
-                      "$O$, supported at the mark, $x$ = $l_{{1}}${}",
+                      "$O$, supported at the marks, $l_{{1}}$ = {}{}",
                       number(at.angle * 180 / M_PI, 4), at.tangent ? ", tangent to the centred disc" : "",
+                      fmt::join(supports, ", "),
                       several ? "; printed: eq. (5); completed: with its missing terms; corrected: along the rod" : ""),
                   .panels = lettered({std::move(shape), std::move(slope)}),
                   .share_x = true,

@@ -23,7 +23,6 @@ constexpr double kShown = 0.012;  // before the touch, and half as long after it
 constexpr const char* kDistanceTitle =
     "Distance of points of the freely falling beam from the cam near the first touch (a), and when it is zero (b): "
     "points of the trial in the colours of (a), their refinement, and the located touch";
-constexpr int kLocatedLook = 6;  // look of the located touch
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 // Places on the beam at the paper's spacing of L/100, as far as the touch may be from where the rigid beam at the
@@ -165,13 +164,6 @@ Panel distance_panel(const Trial& trial) {
     return panel;
 }
 
-// Keeps marks off the frame.
-void widen(render::Axis& axis, const std::vector<double>& values) {
-    const auto [least, most] = std::ranges::minmax(values);
-    const double air = 0.08 * (most - least);
-    if (air > 0) axis.from = least - air, axis.to = most + air;
-}
-
 // When each point reaches the cam: the first round as points, the refinement beside its earliest as a line.
 Panel arrivals_panel(const Trial& trial, const sim::Result& strikes, Lang lang) {
     const Measure time = measure_of("s", trial.when[trial.first]);
@@ -179,21 +171,18 @@ Panel arrivals_panel(const Trial& trial, const sim::Result& strikes, Lang lang) 
                 .y = {.label = axis_label("$t_{0}$", time.unit)},
                 .series = {{.weight = 0.6, .color = render::figure::kMuted}},
                 .legend = false};
-    Series all;
     for (std::size_t k = 0; k < trial.when.size(); ++k) {
         if (trial.when[k] == kNever) continue;
         const double x = trial.history.x[k], t = trial.when[k] * time.factor;
         if (k + kRefined >= trial.first_trial && k <= trial.first_trial + kRefined) panel.series.front().add(x, t);
-        if (k % kRefined > 0) continue;
-        all.add(x, t);
-        panel.series.push_back({.x = {x}, .y = {t}, .look = Trial::look(k), .line = false, .every_point = true});
+        if (k % kRefined == 0)
+            panel.series.push_back({.x = {x}, .y = {t}, .look = Trial::look(k), .line = false, .every_point = true});
     }
-    widen(panel.x, all.x), widen(panel.y, all.y);
     if (!strikes.impacts.empty())
         panel.marks.push_back({.x = strikes.impacts.front().x,
                                .y = strikes.impacts.front().t_start * time.factor,
                                .label = phrase(lang, "located"),
-                               .look = kLocatedLook});
+                               .look = 6});  // black
     return panel;
 }
 

@@ -200,12 +200,7 @@ class Drawing : private Sketch {
 
     void torque() {
         const double r = std::max(0.1 * unit_, 1.3 * p_.hub.radius), middle = -2.2;  // between O and the dimension D
-        add({.kind = Kind::turn,
-             .centre = {0, 0},
-             .radius = r,
-             .from = middle - 0.35,
-             .to = middle + 0.35,
-             .color = kInk});
+        add({.kind = Kind::turn, .centre = {0, 0}, .radius = r, .from = middle - 0.35, .to = middle + 0.35});
         label(r * sim::unit(middle), "$τ$", 0.75 * sim::unit(middle));
     }
 

@@ -38,7 +38,6 @@ void draw_disc_symbols(const sim::Cam& cam, Vec2 b, double zoom, double letter, 
             .radius = kTurn * radius,
             .from = turning - 0.9 * way + 0.2,
             .to = turning + 0.5 * way + 0.2,
-            .color = Sketch::kInk,
             .width = 0.8});
     to.label(b + kTurn * radius * sim::unit(turning + 0.1), "$ω$", -0.85 * sim::unit(turning));
 }

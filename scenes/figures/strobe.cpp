@@ -38,18 +38,12 @@ void add_cam(const sim::Pose& pose, const sim::Problem& problem, render::Color c
 }
 
 // Below the cam, the sense of its rotation.
-void add_rotation(const sim::Pose& pose, const sim::Problem& problem, Sketch& to, render::Bounds& extent) {
-    const Vec2 centre = problem.cam->profile ? pose.cam_centre : pose.disc_centre;
-    const double radius = 1.2 * (problem.cam->profile ? render::cam_reach(problem) : problem.cam->radius);
-    const double middle = -0.5 * std::numbers::pi, half = problem.cam->speed > 0 ? -0.5 : 0.5;
-    to.add({.kind = Sketch::Kind::turn,
-            .centre = centre,
-            .radius = radius,
-            .from = middle - half,
-            .to = middle + half,
-            .color = Sketch::kInk});
-    to.label(centre - Vec2{0, radius}, "$ω$", {0, -0.8});
-    extent.add(centre, radius);
+void add_rotation(const Vec2 axis, const sim::Problem& problem, Sketch& to, render::Bounds& extent) {
+    const double radius = 1.15 * render::cam_reach(problem), low = -0.5 * std::numbers::pi,
+                 half = std::copysign(0.5, -problem.cam->speed);
+    to.add({.kind = Sketch::Kind::turn, .centre = axis, .radius = radius, .from = low - half, .to = low + half});
+    to.label(axis - Vec2{0, radius}, "$ω$", {0, -0.8});
+    extent.add(axis, radius);
 }
 
 void add_beam(const sim::Pose& pose, render::Color color, Sketch& to, render::Bounds& extent) {
@@ -68,16 +62,13 @@ void add_way(const std::vector<sim::Pose>& poses, Sketch& to, render::Bounds& ex
     extent.add(tip + way);
 }
 
-bool is_level(const Vec2& along) { return std::abs(along.x) > 0.5; }
-
 // Beyond the tip, where no other beam is drawn.
 void add_instant(const sim::Pose& pose, std::string instant, Sketch& to) {
     const Vec2 along = sim::unit(pose.theta);
-    const bool level = is_level(along);
+    const bool level = std::abs(along.x) > 0.5;
     using render::VAlign;
     to.add({.kind = Sketch::Kind::label,
             .points = {pose.centreline.back()},
-            .color = Sketch::kInk,
             .markup = std::move(instant),
             .shift = along * 0.5,
             .align = !level         ? render::HAlign::centre
@@ -118,7 +109,6 @@ void add_scale(const sim::Problem& problem, const std::string& step, render::Bou
     for (const Vec2 end : {a, b}) to.line(end - Vec2{0, tick}, end + Vec2{0, tick}, Sketch::kInk, 0.8);
     to.add({.kind = Sketch::Kind::label,
             .points = {b},
-            .color = Sketch::kInk,
             .markup = render::quantity(length, "m") + "\u2003" + step,
             .shift = {0.4, 0},
             .align = render::HAlign::left});
@@ -135,7 +125,7 @@ Panel strobe_panel(const std::vector<sim::Pose>& poses, const Subject& subject, 
         if (problem.cam && (k == 0 || k + 1 == poses.size())) add_cam(poses[k], problem, color, sketch, extent);
     }
     extent.add({0, 0}, hub);
-    if (problem.cam && problem.cam->speed != 0) add_rotation(poses.back(), problem, sketch, extent);
+    if (problem.cam && problem.cam->speed != 0) add_rotation(problem.cam->centre, problem, sketch, extent);
     add_way(poses, sketch, extent);
     sketch.disc({0, 0}, hub, Sketch::kSteel, 0.8);
     sketch.dot({0, 0}, Sketch::kInk, 1.2);
