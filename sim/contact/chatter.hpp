@@ -1,4 +1,4 @@
-// Low bounces of impulsive contact: when they count as one impact with sustained contact afterwards. MODEL.md §12,
+// Low bounces of impulsive contact: when they count as one impact with sustained contact afterwards. MODEL.md §9,
 // (S57).
 #pragma once
 

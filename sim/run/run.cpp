@@ -18,9 +18,9 @@ constexpr double kLocalShare = 1.0 / 3;
 constexpr double kLongStep = 1e3;  // [rad] of the fastest vibration: after such a step `progress` is called
 // Attempted steps at the first projection: chatter may take some thousands.
 constexpr long kFirstProjection = 20000;
-// A run stops early if the projected number of steps exceeds kHopeless × the budget. The projection uses the later half
-// of the steps so far. If that half is shorter than kSureProjection, which a brief phase can be, the limit grows with
-// the square of the ratio.
+// A run stops early if the projected number of steps exceeds kHopeless × the budget. The first projection uses all
+// steps so far, later ones those since the last. If these are fewer than kSureProjection, which a brief phase can have,
+// the limit grows with the square of the ratio.
 constexpr double kSureProjection = 30000, kHopeless = 100;
 // The largest number that a scene may have [length, or rad]. How fast a linear model diverges above its critical
 // speed is a question that runs answer, so that a deflection that no beam has does not end them.
