@@ -38,10 +38,10 @@ std::size_t MotionPool::add(MotionRequest request) {
     return entries_.size() - 1;
 }
 
-sim::Result MotionPool::take(std::size_t request) {
+sim::Result& MotionPool::result(std::size_t request) {
     Entry& entry = entries_[request];
     if (entry.failure) std::rethrow_exception(entry.failure);
-    return std::move(entry.result);
+    return entry.result;
 }
 
 const sim::Result* MotionPool::partial(std::size_t request) const {
@@ -80,27 +80,30 @@ void MotionPool::compute() {
 }
 
 void MotionPool::compute(const Group& group, const sim::Progress& progress) {
-    const auto hand_out = [&](std::vector<sim::Result> results, bool partial) {
-        for (std::size_t i = 0; i < group.size(); ++i)
-            group[i]->result = std::move(results[i]), group[i]->partial = partial;
-    };
     std::vector<sim::Request> requests;
     for (const Entry* entry : group) requests.push_back(entry->wanted.request);
     try {
-        hand_out(integrate(group.front()->wanted.problem, requests, progress), false);
+        std::vector<sim::Result> results = integrate(group.front()->wanted.problem, requests, progress);
+        for (std::size_t i = 0; i < group.size(); ++i) group[i]->result = std::move(results[i]);
     } catch (const sim::SolverError& error) {
-        if (!options_.keep_going) {
-            if (!error.partials.empty()) hand_out(error.partials, true);
-            throw;
+        Group earlier;  // these requests end before the failure
+        for (std::size_t i = 0; i < group.size(); ++i) {
+            if (i > 0 && end_of(requests[i]) < error.last_time) {
+                earlier.push_back(group[i]);
+                continue;
+            }
+            group[i]->failure = std::current_exception();
+            group[i]->partial = !error.partials.empty();
+            if (group[i]->partial) group[i]->result = error.partials[i];
         }
-        if (group.size() == 1) group.front()->failure = std::current_exception();
-        for (Entry* entry : group)  // the integration may succeed for a request that ends earlier
-            if (group.size() > 1) compute({entry}, progress);
+        if (!earlier.empty()) compute(earlier, progress);
     }
 }
 
 void MotionPool::report(const Group& group) const {
-    const sim::Result& run = group.front()->result;
+    const auto done = std::ranges::find(group, nullptr, &Entry::failure);
+    if (done == group.end()) return;
+    const sim::Result& run = (*done)->result;
     std::string label = group.front()->wanted.file;
     for (const Entry* entry : group)
         if (entry->wanted.file.empty()) label.clear();

@@ -20,19 +20,17 @@ class MotionPool {
     struct Options {
         int threads = 1;
         bool quiet = false, verbose = false;
-        bool keep_going = false;  // an integration that fails costs only its own requests
     };
     // `progress` must outlive this.
     MotionPool(Progress& progress, const Options& options) : progress_(progress), options_(options) {}
 
     // Returns the number of the request.
     std::size_t add(MotionRequest request);
-    // Computes all requests that were added since the last call. Throws what sim::simulate throws; with `keep_going`
-    // `take` throws sim::SolverError instead.
+    // Computes all requests that were added since the last call.
     void compute();
-    // The result of a request, with the same bits as in a run for it alone; once.
-    sim::Result take(std::size_t request);
-    // The result of a failed integration until its end; null if another motion failed.
+    // The result of a request, with the same bits as in a run for it alone. Throws the sim::SolverError of its motion.
+    sim::Result& result(std::size_t request);
+    // The result of a failed integration until its end; null if it did not fail or did not begin.
     const sim::Result* partial(std::size_t request) const;
     // Integrates immediately, to find events on which other requests depend.
     sim::Result find_events(const sim::Problem& problem, const sim::Request& request);

@@ -62,14 +62,13 @@ std::vector<render::FilmData> data_of(const Scene& scene) {
     return out;
 }
 
-void add_motions(const Plan& plan, const PlannedPictures& p, std::vector<sim::Result>& results,
+void add_motions(const Plan& plan, const PlannedPictures& p, std::span<sim::Result* const> results,
                  render::FilmSetup& setup) {
-    for (const std::size_t i : p.motions) {
-        const sim::Problem& problem = plan.motions[i].problem;
-        sim::Result& result = results[i];
-        if (result.beyond_model) setup.warning = beyond_model(problem);
-        render::Motion motion = motion_of(p, plan.motions[i], result);
-        if (i == p.motions.front())
+    for (std::size_t i = 0; i < p.motions.size(); ++i) {
+        const MotionRequest& shown = plan.motions[p.motions[i]];
+        if (results[i]->beyond_model) setup.warning = beyond_model(shown.problem);
+        render::Motion motion = motion_of(p, shown, *results[i]);
+        if (i == 0)
             static_cast<render::Motion&>(setup) = std::move(motion);
         else
             setup.others.push_back(std::move(motion));
@@ -90,7 +89,7 @@ std::string accuracy_note(const sim::Problem& problem, const sim::Result& result
 }
 
 render::FilmSetup film_setup(const Plan& plan, const PlannedPictures& p, const Scene& scene,
-                             std::vector<sim::Result>& results) {
+                             std::span<sim::Result* const> results) {
     render::FilmSetup setup;
     setup.title = scene.title;
     setup.scene_end = scene.end_time;

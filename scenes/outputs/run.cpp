@@ -46,17 +46,7 @@ void warn_of_ignored_gl_settings(const RunContext& context, const SceneRuns& all
 void compute_motions(RunContext& context, const SceneRuns& all) {
     const auto start = Clock::now();
     for (const auto& scene : all) scene->request_motions();
-    try {
-        context.motions.compute();
-    } catch (const sim::SolverError&) {
-        try {
-            for (const auto& scene : all) scene->write_partial_data();
-        } catch (const output::IoError& also) {
-            output::print_message("beamcam: {}\n", also.what());  // the solver's failure is the one to report
-        }
-        throw;
-    }
-    for (const auto& scene : all) scene->take_motions();
+    context.motions.compute();
     context.times.simulate += seconds_since(start);
     const sim::Effort& effort = context.motions.effort();
     context.work.integrations = effort.integrations;
@@ -125,7 +115,9 @@ void draw(const PlanWithFigures& plan, const Scene& scene, std::vector<sim::Resu
     }
     for (const PlannedPictures& p : plan.pictures) {
         stop_if_interrupted();
-        const render::Film film(film_setup(plan, p, scene, results));
+        std::vector<sim::Result*> shown;
+        for (const std::size_t motion : p.motions) shown.push_back(&results[motion]);
+        const render::Film film(film_setup(plan, p, scene, shown));
         draw(p, film, *make_callback_sink(p, callbacks), context);
     }
 }

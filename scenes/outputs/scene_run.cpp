@@ -120,7 +120,7 @@ void SceneRun::plan() {
         [&](const sim::Problem& problem, const sim::Request& request) {
             return context_.motions.find_events(problem, request);
         },
-        [&](std::size_t output, const std::string& why) { reject(output, why); });
+        [&](std::size_t output, const std::function<void()>& work) { attempt(output, work); });
     context_.times.simulate += seconds_since(start);
     plan_ = scenes::plan(resolved, context_.options.shard, existing_);
     std::vector<std::string> files;  // whose names are known now
@@ -136,10 +136,6 @@ void SceneRun::plan() {
 
 void SceneRun::request_motions() {
     for (const MotionRequest& each : plan_.motions) requests_.push_back(context_.motions.add(each));
-}
-
-void SceneRun::take_motions() {
-    for (const std::size_t request : requests_) results_.push_back(context_.motions.take(request));
 }
 
 // ---- the sweep ---------------------------------------------------------------------------------
@@ -172,9 +168,20 @@ void SceneRun::compute_sweep() {
 
 void SceneRun::write_outputs() {
     for (const DataFile& d : plan_.data) attempt(d.output, [&] { write_data_file(d); });
+    try {
+        write_partial_data();
+    } catch (const output::IoError& also) {
+        output::print_message("beamcam: {}\n", also.what());  // the solver's failure is the one to report
+    }
     for (std::size_t i = 0; i < plan_.figures.size(); ++i) attempt(plan_.figures[i].output, [&] { write_figure(i); });
     for (const PlannedPictures& p : plan_.pictures) attempt(p.output, [&] { write_pictures(p); });
     if (sweep_ && !rejected_) sweep_->remove();
+}
+
+std::vector<sim::Result*> SceneRun::results_of(const std::vector<std::size_t>& motions) {
+    std::vector<sim::Result*> results;
+    for (const std::size_t motion : motions) results.push_back(&context_.motions.result(requests_[motion]));
+    return results;
 }
 
 DataSource SceneRun::source_of(const sim::Result& run, const output::FileTarget* file) const {
@@ -185,7 +192,7 @@ DataSource SceneRun::source_of(const sim::Result& run, const output::FileTarget*
 
 void SceneRun::write_data_file(const DataFile& d) {
     static const sim::Result kNone;
-    const sim::Result& run = plan_.run ? results_[*plan_.run] : kNone;
+    const sim::Result& run = plan_.run ? *results_of({*plan_.run}).front() : kNone;
     stop_if_interrupted();
     const auto start = Clock::now();
     if (is_stdout(d.file)) {
@@ -204,7 +211,7 @@ void SceneRun::write_figure(std::size_t figure) {
     const FigureFile& f = plan_.figures[figure];
     const auto& how = std::get<FigureOutput>(scene_.outputs[f.output]);
     MotionResults results;
-    for (const std::size_t motion : f.motions) results.motions.push_back(&results_[motion]);
+    std::ranges::copy(results_of(f.motions), back_inserter(results.motions));
     Scene carried = scene_;
     if (sweep_) results.sweep = sweep_->result(), carried.sweep = sweep_->grid().sweep();
     const render::figure::Figure made = plan_.makers[figure](results);
@@ -221,9 +228,9 @@ void SceneRun::write_figure(std::size_t figure) {
 void SceneRun::write_pictures(const PlannedPictures& p) {
     stop_if_interrupted();
     warn_of_omissions(p);
-    const std::size_t first = p.motions.front();
-    const std::string accuracy = accuracy_note(plan_.motions[first].problem, results_[first]);
-    render::FilmSetup setup = film_setup(plan_, p, scene_, results_);
+    const std::vector<sim::Result*> results = results_of(p.motions);
+    const std::string accuracy = accuracy_note(plan_.motions[p.motions.front()].problem, *results.front());
+    render::FilmSetup setup = film_setup(plan_, p, scene_, results);
     if (p.kind == PlannedPictures::Kind::page) return write_whole(p, render::html_page(setup));
     const SinkFiles to{scene_, files_, context_, accuracy};
     render::Film film(std::move(setup));

@@ -26,12 +26,9 @@ class SceneRun {
     void plan();
     bool needs_gl() const { return plan_.needs_gl(); }
     void request_motions();
-    void take_motions();
     // Computes the points of the scene's sweep, if outputs need them.
     void compute_sweep();
     void write_outputs();
-    // Writes the tables and impacts of a failed run under other names.
-    void write_partial_data();
 
   private:
     bool is_part_of_sweep(std::size_t output) const;
@@ -39,9 +36,13 @@ class SceneRun {
     void report_kept_frames(const ResolvedOutput& sequence);
     void check_libraries();
     const Output& output_of(const DataFile& data) const { return scene_.outputs[data.output]; }
+    // The results of motions of the plan. Throws the failure of one of them.
+    std::vector<sim::Result*> results_of(const std::vector<std::size_t>& motions);
     // The source of data files, from this motion of the scene. `file`: null for standard output.
     DataSource source_of(const sim::Result& run, const output::FileTarget* file) const;
     void write_data_file(const DataFile& data);
+    // Writes the tables and impacts of a failed run under other names.
+    void write_partial_data();
     void write_figure(std::size_t figure);
     void write_pictures(const PlannedPictures& p);
     void write_drawing(const PlannedPictures& p, render::Film& film, const std::string& accuracy);
@@ -57,7 +58,6 @@ class SceneRun {
     OutputFiles files_;
     PlanWithFigures plan_;
     std::vector<std::size_t> requests_;  // numbers of the plan's motions in the pool
-    std::vector<sim::Result> results_;   // of the plan's motions
     std::unique_ptr<SweepRun> sweep_;
     bool rejected_ = false;  // some output
 };

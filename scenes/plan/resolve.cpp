@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <optional>
 #include <utility>
 
@@ -201,11 +202,13 @@ ResolvedOutput resolved_comparison(std::size_t index, const PictureOutput& p, co
 
 // ---- all outputs -------------------------------------------------------------------------------
 
-// The events of the scene's own motion, found when the first output needs them.
+// The events of the scene's own motion, which are searched for when the first output needs them.
 class OwnEvents {
   public:
     OwnEvents(const Scene& scene, const std::set<std::size_t>& without, const FindEvents& find)
-        : scene_(scene), find_(find) {
+        : scene_(scene), found_(std::async(std::launch::deferred, [this, &find] {
+              return run(search_, scene_.end_time, scene_.problem, find);
+          })) {
         for (std::size_t i = 0; i < scene.outputs.size(); ++i) {
             const Output& output = scene.outputs[i];
             if (without.contains(i) || !needs_events(output, scene)) continue;
@@ -215,19 +218,15 @@ class OwnEvents {
                 search_.add(search_of(*f, scene));
         }
     }
-    const sim::Result& get() {
-        if (!found_) found_ = run(search_, scene_.end_time, scene_.problem, find_);
-        return *found_;
-    }
+    const sim::Result& get() const { return found_.get(); }
 
   private:
     const Scene& scene_;
-    const FindEvents& find_;
     Search search_;
-    std::optional<sim::Result> found_;
+    std::shared_future<sim::Result> found_;  // keeps a failure, too
 };
 
-ResolvedOutput resolved_output(std::size_t index, const Scene& scene, OwnEvents& own, const FindEvents& find) {
+ResolvedOutput resolved_output(std::size_t index, const Scene& scene, const OwnEvents& own, const FindEvents& find) {
     static const sim::Result kNoEvents;
     const Output& output = scene.outputs[index];
     const bool events = needs_events(output, scene);
@@ -285,18 +284,11 @@ FigureOutput resolved(const FigureOutput& how, const Scene& scene, const FindEve
 }
 
 ResolvedScene resolve(const Scene& scene, const std::set<std::size_t>& without, const FindEvents& find,
-                      const RejectOutput& reject) {
+                      const AttemptOutput& attempt) {
     ResolvedScene resolved{scene, {}};
     OwnEvents own(scene, without, find);
-    for (std::size_t i = 0; i < scene.outputs.size(); ++i) {
-        if (without.contains(i)) continue;
-        try {
-            resolved.outputs.push_back(resolved_output(i, scene, own, find));
-        } catch (const render::PictureError& error) {
-            if (!reject) throw;
-            reject(i, error.what());
-        }
-    }
+    for (std::size_t i = 0; i < scene.outputs.size(); ++i)
+        if (!without.contains(i)) attempt(i, [&] { resolved.outputs.push_back(resolved_output(i, scene, own, find)); });
     return resolved;
 }
 

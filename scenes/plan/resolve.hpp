@@ -27,13 +27,14 @@ struct ResolvedScene {
 
 // Integrates the problem until the request is answered.
 using FindEvents = std::function<sim::Result(const sim::Problem& problem, const sim::Request& request)>;
-// Is called with an output whose events do not occur, and the reason; the output is then left out. Without it
-// render::PictureError is thrown.
-using RejectOutput = std::function<void(std::size_t output, const std::string& why)>;
+// Does the work of one output. If it handles the failure, such as that of events that do not occur, the output is left
+// out.
+using AttemptOutput = std::function<void(std::size_t output, const std::function<void()>& work)>;
+inline void attempt_or_throw(std::size_t, const std::function<void()>& work) { work(); }
 
 // `without`: indices of outputs to leave out. The scene must outlive the result.
 ResolvedScene resolve(const Scene& scene, const std::set<std::size_t>& without, const FindEvents& find,
-                      const RejectOutput& reject = {});
+                      const AttemptOutput& attempt = attempt_or_throw);
 ResolvedScene resolve(const Scene& scene, const FindEvents& find);  // all outputs
 
 // True if the times of the output depend on events.

@@ -83,7 +83,7 @@ void EntryTest::request_compared_records() {
 
 void EntryTest::judge(MotionPool& pool, const RunOptions& options) {
     std::vector<sim::Result> results;
-    for (const std::size_t request : requests_) results.push_back(pool.take(request));
+    for (const std::size_t request : requests_) results.push_back(std::move(pool.result(request)));
     const sim::Result& run = results[*plan_.run];
     if (test_.result.picture) require_reproducible(run);
     if (needs_motion()) {

@@ -89,7 +89,7 @@ class Regression {
         });
         std::erase(tests, nullptr);
         Progress silent(ProgressStyle::none);
-        MotionPool pool(silent, {.threads = threads, .quiet = true, .keep_going = true});
+        MotionPool pool(silent, {.threads = threads, .quiet = true});
         for (EntryTest* test : tests) test->request(pool);
         pool.compute();
         result_.simulations = pool.motions();

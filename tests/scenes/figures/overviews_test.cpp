@@ -59,11 +59,11 @@ TEST(Overviews, APhasePortraitHasRowsInImpacts) {
     EXPECT_LT(jump, 0.4 * (high - low));
 }
 
-Plan resolved_plan(const Scene& scene, const RejectOutput& reject = {}) {
+Plan resolved_plan(const Scene& scene, const AttemptOutput& attempt = attempt_or_throw) {
     const auto find = [](const sim::Problem& problem, const sim::Request& request) {
         return sim::simulate(problem, request);
     };
-    return plan(resolve(scene, {}, find, reject));
+    return plan(resolve(scene, {}, find, attempt));
 }
 
 TEST(Stretch, BeginsAndEndsAtEventsOfTheFirstMotion) {
@@ -114,8 +114,12 @@ TEST(Stretch, OfAnEventThatDoesNotOccurIsRejectedAlone) {
         {"type": "figure", "figure": "kymograph", "from": "touch", "file": "c.pdf"}]})");
     ASSERT_TRUE(reading.scene) << reading.report();
     std::vector<std::string> why;
-    const Plan made = resolved_plan(*reading.scene, [&](std::size_t output, const std::string& text) {
-        why.push_back(std::to_string(output) + ": " + text);
+    const Plan made = resolved_plan(*reading.scene, [&](std::size_t output, const std::function<void()>& work) {
+        try {
+            work();
+        } catch (const render::PictureError& error) {
+            why.push_back(std::to_string(output) + ": " + error.what());
+        }
     });
     ASSERT_EQ(made.figures.size(), 1u);
     EXPECT_EQ(made.figures[0].file, "c.pdf");

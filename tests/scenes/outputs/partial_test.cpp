@@ -37,5 +37,24 @@ TEST(Partial, ImpactsAreThoseThatWereFound) {
     EXPECT_THAT(slurp(folder / "i.partial.json"), ::testing::HasSubstr("t_start"));
 }
 
+constexpr const char* kPressedThroughTheCam = R"({"beam": {"model": "rigid"}, "hub": {"drive": {"type": "prescribed",
+    "law": "constant", "speed": -1}}, "initial": {"angle": 1}, "time": {"end": 2}, "outputs": [
+    {"type": "impacts", "file": "bad.json"}, {"type": "trajectory", "file": "early.csv", "times": [0, 0.1]},
+    {"type": "still", "file": "bad.png", "at": "impact:99"}]})";
+
+// Its outputs are rejected, also those whose times need the motion; those of the other scene are written.
+TEST(Partial, AFailedMotionCostsOnlyItsOwnOutputs) {
+    const Folder folder;
+    folder.write("bad_scene.json", kPressedThroughTheCam);
+    folder.write("good_scene.json", R"({"time": {"end": 0.1}, "outputs": [{"type": "summary", "file": "good.json"}]})");
+    const Finished run = shell(folder, "$BEAMCAM run bad_scene.json good_scene.json");
+    EXPECT_EQ(run.code, 4) << run.err;
+    EXPECT_THAT(run.err, ::testing::HasSubstr("of 4 outputs could not be written"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "bad.json"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "bad.png"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "bad.partial.json")) << run.err;
+    EXPECT_TRUE(std::filesystem::exists(folder / "good.json")) << run.err;
+}
+
 }  // namespace
 }  // namespace beamcam::scenes::testing
