@@ -33,7 +33,7 @@ struct FigureArguments {
     std::string scene, figure, file;
     std::optional<std::string> preset;  // a file
     bool list = false;
-    KeyOptions print{"figure"}, channels{"figure"}, span{"figure"};
+    KeyOptions general{"figure"}, channels{"figure"}, span{"figure"};
     KeyOptions panel{"figure"};  // of the figure's only panel
     std::optional<std::string> data, caption;
     // Options of "series":
@@ -43,7 +43,7 @@ struct FigureArguments {
     bool logarithmic = false;
 
     bool describes_panel() const { return panel.any() || title; }
-    // Options that describe a series, and their keys; options of `print` describe other figures.
+    // Options that describe a series, and their keys; `general` options do not choose the figure.
     std::vector<std::pair<std::string, std::string>> of_series() const {
         std::vector<std::pair<std::string, std::string>> out;
         for (const KeyOptions* group : {&channels, &span, &panel, &series})
@@ -123,7 +123,7 @@ Node output_node(const FigureArguments& args, const std::optional<Preset>& prese
     if (args.describes_panel() && !preset)
         add(output, "panels", array_node({object_node({{"channels", args.channels.values("--channels")}})}));
     if (Node* panels = child(output, "panels"); panels && !panels->items.empty()) {
-        if (args.title) add(panels->items.front(), "title", *args.title);
+        if (args.title) remove(panels->items.front(), "title"), add(panels->items.front(), "title", *args.title);
         for (Node& panel : panels->items)
             if (args.logarithmic) remove(panel, "scale"), add(panel, "scale", "log");
     }
@@ -134,7 +134,7 @@ Node output_node(const FigureArguments& args, const std::optional<Preset>& prese
 
 void reject_options_of_others(const FigureArguments& args, const FigureType& type) {
     auto given = args.of_series();
-    std::ranges::move(args.print.given(), back_inserter(given));
+    std::ranges::move(args.general.given(), back_inserter(given));
     for (const auto& [option, key] : given)
         if (const auto misplaced = type.misplaced(key)) throw UsageError(fmt::format("{} {}", option, *misplaced));
 }
@@ -159,7 +159,7 @@ FigureOutput figure_output(const FigureArguments& args, const std::optional<Pres
     const KeyOptions no_channels{"figure"};  // they are in the panel
     auto figure = std::get<FigureOutput>(read_output(
         output_node(args, preset),
-        {&args.print, args.describes_panel() ? &no_channels : &args.channels, &args.panel, &args.span, &args.series},
+        {&args.general, args.describes_panel() ? &no_channels : &args.channels, &args.panel, &args.span, &args.series},
         scene, args.scene, args.common));
     if (SeriesKeys& keys = figure.series; !args.compare.empty())
         keys.compare.front().problem = scene.problem;  // with the values of --set
@@ -201,7 +201,8 @@ void draw_table(const FigureArguments& args) {
     scene.name = std::filesystem::path(args.scene).stem().string();
     Node output = output_of("table");
     add(output, "table", table_node(args));
-    auto figure = std::get<FigureOutput>(read_output(std::move(output), {&args.print}, scene, args.scene, args.common));
+    auto figure =
+        std::get<FigureOutput>(read_output(std::move(output), {&args.general}, scene, args.scene, args.common));
     scene.set_outputs({with_files(std::move(figure), args)});
     run_or_plan({&scene, 1}, run_options(args.common, ""), args.common);
 }
@@ -210,9 +211,9 @@ void act(const FigureArguments& given) {
     FigureArguments args = given;
     if (holds_columns(args.scene)) return draw_table(args);
     Scene scene = load_scene(args.scene, args.common);
-    if (args.figure.empty() && !args.of_series().empty()) args.figure = "series";
     if (args.preset && !args.figure.empty())
         throw UsageError(fmt::format("figure {}: --preset names another figure; give one of them", args.figure));
+    if (!args.preset && args.figure.empty() && !args.of_series().empty()) args.figure = "series";
     if (args.list || (args.figure.empty() && !args.preset)) {
         if (!args.file.empty())
             throw UsageError(fmt::format("-o {}: which figure? `beamcam figure {}` lists them", args.file, args.scene));
@@ -242,13 +243,13 @@ void act(const FigureArguments& given) {
 // ---- options ---------------------------------------------------------------------------------------
 
 void add_print_options(CLI::App& app, FigureArguments& args) {
-    args.print.add(app, "--column", "column", "COLUMN");
-    args.print.add(app, "--width", "width", "W");
-    args.print.add(app, "--height", "height", "H");
-    args.print.add(app, "--lang", "lang", "LANG");
-    args.print.add(app, "--dpi", "dpi", "N");
-    args.print.add(app, "--font", "font", "FONT");
-    args.print.add(app, "--theme", "theme", "THEME");
+    args.general.add(app, "--column", "column", "COLUMN");
+    args.general.add(app, "--width", "width", "W");
+    args.general.add(app, "--height", "height", "H");
+    args.general.add(app, "--lang", "lang", "LANG");
+    args.general.add(app, "--dpi", "dpi", "N");
+    args.general.add(app, "--font", "font", "FONT");
+    args.general.add(app, "--theme", "theme", "THEME");
     add_option(app, "--data", args.data, "FILE", "Write the plotted numbers, too: .csv");
     add_option(app, "--caption", args.caption, "FILE", "Write the caption, too: .txt or .md");
 }
@@ -263,7 +264,7 @@ void add_content_options(CLI::App& app, FigureArguments& args) {
     args.span.add(app, "--horizon", "horizon", "BOOL");
     args.span.add(app, "--from", "from", "T");
     args.span.add(app, "--to", "to", "T");
-    args.print.add(app, "--window", "window", "T");
+    args.general.add(app, "--window", "window", "T");
 }
 
 void add_series_options(CLI::App& app, FigureArguments& args) {

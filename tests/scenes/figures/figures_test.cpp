@@ -200,6 +200,17 @@ TEST(Presets, OfOnesOwnWorkAsThoseOfTheProgram) {
     EXPECT_THAT(testing::slurp(folder / "c.txt"), StartsWith("Until the touch. "));
 }
 
+TEST(Presets, OfOnesOwnTakeTheOptionsOfTheirFigure) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.4}})");
+    folder.write("mine.json", R"({"panels": [{"channels": ["theta"], "title": "Old title"}]})");
+    const Finished made =
+        shell(folder, "$BEAMCAM figure s.json --preset mine.json --to 0.1 --title 'New title' -o a.pdf -q");
+    ASSERT_EQ(made.code, 0) << made.err;
+    const std::string shown = shell(folder, "$BEAMCAM info a.pdf --scene").out;
+    EXPECT_THAT(shown, AllOf(HasSubstr("\"to\": 0.1"), HasSubstr("New title"), Not(HasSubstr("Old title"))));
+}
+
 TEST(Presets, WithMistakesAreReported) {
     const Folder folder;
     folder.write("s.json", R"({"time": {"end": 0.4}})");
