@@ -10,7 +10,7 @@
 namespace beamcam::scenes {
 
 // Each returns "; SENTENCE", or nothing for a word that the table does not have.
-std::string absent_key(std::string_view path);                           // "cam.profile"
+std::string absent_key(std::string_view path);                           // "cam.lift"
 std::string absent_value(std::string_view path, std::string_view word);  // "solver.method", "exponential"
 std::string absent_unit(std::string_view symbol);                        // "inch"
 std::string absent_command(std::string_view name);

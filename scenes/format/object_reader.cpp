@@ -301,14 +301,15 @@ void ObjectReader::finish() {
     for (const Member& member : object_->members) {
         if (member.key.starts_with("x-") || std::ranges::find(visited_, member.key) != visited_.end()) continue;
         const std::string place = path(member.key);
-        std::string remedy;
+        std::string in_scene = place, remedy;
+        if (context_ && context_->only_output) in_scene = "outputs.0." + place.substr(context_->only_output->size());
         const auto try_remedy = [&](const auto& find) {
             if (remedy.empty() && !diagnostics_.exceed_report()) remedy = find();
         };
         try_remedy([&] { return absent_key(place); });
-        if (context_) try_remedy([&] { return place_of_key(place, type ? type->value.text : "", true); });
+        if (context_) try_remedy([&] { return place_of_key(in_scene, type ? type->value.text : "", true); });
         try_remedy([&] { return suggestion(member.key, visited_); });
-        if (context_) try_remedy([&] { return place_of_key(place, "", false); });
+        if (context_) try_remedy([&] { return place_of_key(in_scene, "", false); });
         try_remedy([&] { return suggestion_or_list(member.key, visited_); });
         diagnostics_.error(member.key_place, place,
                            fmt::format("unknown key {} in {}{}", in_quotes(member.key), object_name(), remedy));
@@ -318,7 +319,7 @@ void ObjectReader::finish() {
 bool read_object(const Node& root, const std::string& name, const std::function<void(ObjectReader& r)>& visit,
                  std::vector<Message>& messages, const SceneContext* context) {
     Diagnostics diagnostics;
-    ObjectReader reader(diagnostics, &root, "", name, context);
+    ObjectReader reader(diagnostics, &root, context ? context->only_output.value_or("") : "", name, context);
     visit(reader);
     reader.finish();
     std::ranges::move(diagnostics.take(), std::back_inserter(messages));

@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -59,6 +60,7 @@ struct SceneContext {
     const Node& root;
     const Source& source;
     std::map<std::string, OtherScene>& others;
+    std::optional<std::string> only_output = {};  // an output is read alone; its path in messages
 };
 
 class ObjectReader final : public SceneVisitor {
@@ -143,7 +145,7 @@ class ObjectReader final : public SceneVisitor {
     void problem(sim::Problem& problem) override;  // sim::validate checks the ranges of its numbers
     void check(const std::function<void(ObjectReader&)>& rule) override;
 
-    // Reports every key that was not visited. `suggest` may return where such a key belongs.
+    // Reports every key that was not visited, with the place of a key that stands in the wrong object.
     void finish();
 
   private:

@@ -41,26 +41,21 @@ struct CloseFile {
 
 }  // namespace
 
-bool read_only_output(const Node& output, const std::string& scene_name, const std::string& prefix, Scene& scene,
+bool read_only_output(const Node& output, const std::string& scene_name, const std::string& path, Scene& scene,
                       std::vector<Message>& messages) {
-    Node list = array_node({output});
-    resolve_preset(list.items.front());
-    list.place = output.place;
-    const Node alone = object_node({{"outputs", std::move(list)}});
+    Node alone = output;
+    resolve_preset(alone);
     scene.set_outputs({});
     // Comparisons change sections of the scene: of the resolved scene here, with its overrides.
     const Source resolved{scene_name, to_json(scene), true};
     const Parsed parsed = parse(resolved.text);
     std::map<std::string, OtherScene> others;
-    const SceneContext context{scene, parsed.root, resolved, others};
+    const SceneContext context{scene, parsed.root, resolved, others, path};
+    Output read;
     const bool fine = read_object(
-        alone, "the scene", [&scene](ObjectReader& r) { visit_outputs(r, scene); }, messages, &context);
-    const std::string itself = prefix.empty() ? "the output" : prefix.substr(0, prefix.size() - 1);
-    for (Message& message : messages) {
-        replace_all(message.text, "outputs.0.", prefix);
-        replace_all(message.text, "outputs.0", itself);
-    }
-    return fine && !scene.outputs.empty();
+        alone, "the output", [&read](ObjectReader& r) { visit(r, read); }, messages, &context);
+    scene.set_outputs({std::move(read)});
+    return fine;
 }
 
 Reading read_scene(Source file, const std::vector<std::string>& overrides) {

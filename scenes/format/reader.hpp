@@ -37,8 +37,8 @@ Source load_source(const std::string& path, const char* remedy = "`beamcam init`
 Source load_named_source(const std::string& path);
 
 // Reads one output, which becomes the only output of the scene. `scene_name`: paths in the output are relative to its
-// folder. Messages put `prefix` before the names of its keys, such as "entries.fall.output.". False on errors.
-bool read_only_output(const Node& output, const std::string& scene_name, const std::string& prefix, Scene& scene,
+// folder. `path`: of the output in messages, such as "entries.fall.output"; empty: "the output". False on errors.
+bool read_only_output(const Node& output, const std::string& scene_name, const std::string& path, Scene& scene,
                       std::vector<Message>& messages);
 
 }  // namespace beamcam::scenes

@@ -128,7 +128,7 @@ class Reader {
         }
         using enum PictureOutput::Kind;
         std::vector<Message> messages;
-        const bool fine = read_only_output(node, scene_file(entry), fmt::format("entries.{}.output.", entry.name),
+        const bool fine = read_only_output(node, scene_file(entry), fmt::format("entries.{}.output", entry.name),
                                            entry.scene, messages);
         for (const Message& message : messages)
             if (message.fatal) entry.problem += describe({all_.source}, message);
