@@ -40,7 +40,7 @@ std::string converted(std::string_view bytes, const char* encoding, const std::s
 const char* other_encoding(std::string_view bytes) {
     if (bytes.starts_with("\xFF\xFE") || (bytes.size() > 1 && bytes[0] != 0 && bytes[1] == 0)) return "UTF-16LE";
     if (bytes.starts_with("\xFE\xFF") || (bytes.size() > 1 && bytes[0] == 0 && bytes[1] != 0)) return "UTF-16BE";
-    return g_utf8_validate(bytes.data(), static_cast<gssize>(bytes.size()), nullptr) ? nullptr : "ISO-8859-1";
+    return g_utf8_validate(bytes.data(), static_cast<gssize>(bytes.size()), nullptr) ? nullptr : "WINDOWS-1252";
 }
 
 // UTF-8 without a byte order mark, with lines that end in "\n".
