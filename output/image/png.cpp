@@ -21,8 +21,8 @@ namespace beamcam::output {
 
 namespace {
 
-// The level of libdeflate. Lower levels save at most a tenth of the time, level 1 takes twice the time; so do higher
-// levels, for files smaller by 0.1 %.
+// The level of libdeflate. For a picture of 1080p levels 2 to 6 take 7 ms to 11 ms, and level 6 makes the smallest
+// files of these; level 7 takes a quarter more time, levels 1, 8 and 9 about twice the time or more.
 constexpr int kCompressionLevel = 6;
 constexpr std::uint8_t kFilterUp = 2;  // each byte minus the byte above
 constexpr std::size_t kLongestChunk = 0x7fffffff;

@@ -1,5 +1,5 @@
-// Identity of the program and of a motion. Equal keys mean equal bits; a key that misses an input would reuse an
-// outdated result.
+// Identity of the program and of a motion. Equal keys mean equal bits; a key that misses an input would give an output
+// the motion of another problem, or keep an outdated file.
 #pragma once
 
 #include <string>

@@ -25,7 +25,6 @@ struct ExistingWork {
     std::map<std::size_t, std::set<long>> frames;  // of sequences: numbers of the up-to-date frames
 };
 
-// The parts of the request for a motion that a picture shows.
 // Indices into Request::poses: the survey serves the choice of scales, the path that of the tip.
 constexpr std::size_t kFramePoses = 0, kSurveyPoses = 1, kPathPoses = 2;
 // Indices into Request::tables: the channels of the panels; with a cam t, contact_x, contact_s, contact_force.

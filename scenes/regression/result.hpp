@@ -1,5 +1,4 @@
-// The results of a regression test, as it finds them or as its report holds them: of each picture, of each entry, and
-// of all; and the rule by which they pass.
+// The results of a regression test: of each picture, of each entry, and of all; and the rule by which they pass.
 #pragma once
 
 #include <algorithm>

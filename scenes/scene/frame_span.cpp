@@ -14,8 +14,7 @@ struct Frames {
     double first, end;  // numbers
 };
 
-// The frames k/fps from the one nearest to `from` to the one nearest to `to`, which is not shown: parts that adjoin
-// have all frames of the whole once.
+// The frames k/fps from the one nearest to `from` to the one nearest to `to`, which is not shown.
 Frames frames_between(double from, double to, double fps) { return {std::round(from * fps), std::round(to * fps)}; }
 
 // Why a film of this length has no frames, or too many; empty if it is valid.
