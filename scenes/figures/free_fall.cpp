@@ -1,6 +1,5 @@
 // Falling without a cam: the hub angle of the flexible and the rigid beam.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -104,15 +103,6 @@ std::optional<Panel> close_up(const Falls& falls, const MotionResults& results) 
     return panel;
 }
 
-std::string fall_title(const Falls& falls, const MotionResults& results) {
-    std::vector<std::string> zeros;
-    for (const Fall& fall : falls.shown)
-        if (const auto zero = fall.zero(results))
-            zeros.push_back(fmt::format("{} s ({})", grouped(*zero, 6), fall.label));
-    return fmt::format("{}{}{}{}", kFallTitle, zeros.empty() ? "" : "; it is zero after ", fmt::join(zeros, ", "),
-                       falls.paper ? "; factor 2: between torque and inertia" : "");
-}
-
 Panel fall_panel(const Falls& falls, const MotionResults& results, const Subject& subject) {
     const Measure angle = measure_in(subject.units, "rad");
     Panel panel{
@@ -130,12 +120,17 @@ Panel fall_panel(const Falls& falls, const MotionResults& results, const Subject
 
 FigureDrawing prepare_fall(const Scene& scene, const FigureOutput&, MotionRequests& requests) {
     return [falls = falls_of(scene, requests)](const Subject& subject, const MotionResults& results) -> Figure {
-        Runs runs;
-        for (const Fall& fall : falls.shown) runs.emplace_back(&fall.problem, results[fall.motion]);
         std::vector<Panel> panels{fall_panel(falls, results, subject)};
         if (auto closer = falls.closely ? close_up(falls, results) : std::nullopt) panels.push_back(std::move(*closer));
         const double aspect = panels.size() > 1 ? 1.25 : 0.74;
-        Figure figure{.title = fall_title(falls, results), .panels = lettered(std::move(panels)), .aspect = aspect};
+        Figure figure{.title = kFallTitle, .panels = lettered(std::move(panels)), .aspect = aspect};
+        Runs runs;
+        for (const Fall& fall : falls.shown) {
+            runs.emplace_back(&fall.problem, results[fall.motion]);
+            if (const auto zero = fall.zero(results))
+                figure.title += fmt::format("; {}: zero after {} s", fall.label, grouped(*zero, 6));
+        }
+        if (falls.paper) figure.title += "; factor 2: between torque and inertia";
         add_caption(figure, runs);
         return figure;
     };

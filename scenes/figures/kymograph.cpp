@@ -10,8 +10,8 @@
 namespace beamcam::scenes {
 namespace {
 
-constexpr int kColumns = 600, kStations = 65;  // a printed column resolves no more
-constexpr int kMostSamples = 64;               // of a column
+constexpr int kColumns = 600, kStations = 129;  // a printed column resolves few more
+constexpr int kMostSamples = 64;                // of a column
 
 // Instants per column: more than one where the vibration is faster than the columns, so that it is not aliased. Sixteen
 // in a period miss its largest deflection by less than 2 %.
@@ -84,7 +84,9 @@ FigureDrawing prepare_kymograph(const Scene& scene, const FigureOutput& how, Mot
 
 extern const FigureType kKymograph{
     .name = "kymograph",
-    .title = "Deflection from the tangent at the root, along the beam and in time; squares: impacts",
+    .title =
+        "Deflection from the tangent at the root, along the beam and in time, |$v$| where it is the largest of a fast "
+        "vibration; squares: impacts",
     .refusal = needs_bending,
     .maker = prepare_kymograph,
     .keys = {"from", "to"},

@@ -63,20 +63,10 @@ void add_way(const std::vector<sim::Pose>& poses, Sketch& to, render::Bounds& ex
 }
 
 // Beyond the tip, where no other beam is drawn.
-void add_instant(const sim::Pose& pose, std::string instant, Sketch& to) {
+void add_instant(const sim::Pose& pose, const std::string& instant, Sketch& to) {
     const Vec2 along = sim::unit(pose.theta);
-    const bool level = std::abs(along.x) > 0.5;
-    using render::VAlign;
-    to.add({.kind = Sketch::Kind::label,
-            .points = {pose.centreline.back()},
-            .markup = std::move(instant),
-            .shift = along * 0.5,
-            .align = !level         ? render::HAlign::centre
-                     : along.x >= 0 ? render::HAlign::left
-                                    : render::HAlign::right,
-            .valign = level         ? VAlign::middle
-                      : along.y > 0 ? VAlign::bottom
-                                    : VAlign::top});
+    const double half = 0.28 * static_cast<double>(instant.size());  // of its width
+    to.label(pose.centreline.back(), instant.c_str(), {(0.5 + half) * along.x, 0.9 * along.y});
 }
 
 // The last one, and the first if it stands clear.
