@@ -1,5 +1,6 @@
 #include "sim/beam/modal_model.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace beamcam::sim {
@@ -18,6 +19,7 @@ ModalModel::ModalModel(const Problem& problem) : Model(problem), kind_(problem.b
     for (int i = 0; i < modes_; ++i) hub_row_[1 + i] = m.slope[i];
     bq_ = gq_ = Eigen::VectorXd::Zero(modes_);
     tables_ = tables;
+    keep(Eigen::VectorXd{});
     build_damping(problem);
 }
 
@@ -35,26 +37,36 @@ void ModalModel::state_changed() {
         alpha_ += hub_row_[i] * xi_[i];
         alpha_dot_ += hub_row_[i] * rate_[i];
     }
-    local_.shortened = root_.shortened = tip_.shortened = false;
+    ++state_;
+}
+
+void ModalModel::keep(const Eigen::VectorXd& x) {
+    std::vector<double> places(x.begin(), x.end());
+    places.insert(places.end(), {0, length_});
+    std::ranges::sort(places);
+    kept_.assign(places.size(), {});
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        kept_[k].evaluate(tables_->shapes, places[k]);
+        kept_[k].h.resize(modes_, modes_);
+        if (tables_->foreshortening) tables_->foreshortening->matrix(kept_[k], kept_[k].h.data());
+    }
+}
+
+void ModalModel::shorten(const Local& here, const double* q, double* hq) const {
+    if (here.h.size() == 0) return tables_->foreshortening->times(here, q, hq);
+    Eigen::Map<Eigen::VectorXd>(hq, modes_).noalias() = here.h * Eigen::Map<const Eigen::VectorXd>(q, modes_);
 }
 
 const ModalModel::Local& ModalModel::at(double x) const {
-    Local& here = x == 0 ? root_ : x == length_ ? tip_ : local_;
+    const auto kept = std::ranges::lower_bound(kept_, x, {}, &Local::x);
+    Local& here = kept != kept_.end() && kept->x == x ? *kept : elsewhere_;
     if (here.x != x) {
         here.evaluate(tables_->shapes, x);
-        here.shortened = false;
-        if (tables_->foreshortening && x == length_) {
-            here.h.resize(modes_, modes_);
-            tables_->foreshortening->matrix(here, here.h.data());
-        }
+        here.state = -1;
     }
-    if (tables_->foreshortening && !here.shortened) {
-        here.shortened = true;
-        if (x == length_)
-            Eigen::Map<Eigen::VectorXd>(here.shortening, modes_).noalias() =
-                here.h * Eigen::Map<const Eigen::VectorXd>(xi_ + 1, modes_);
-        else if (x != 0)  // no shortening at the root
-            tables_->foreshortening->times(here, xi_ + 1, here.shortening);
+    if (tables_->foreshortening && here.state != state_ && x != 0) {  // no shortening at the root
+        here.state = state_;
+        shorten(here, xi_ + 1, here.shortening);
     }
     return here;
 }
@@ -188,7 +200,7 @@ Vec2 ModalModel::convective(double x) const {
     double bend = 0;
     if (tables_->foreshortening) {
         double h_rate[kMaxModes] = {};
-        tables_->foreshortening->times(here, rate_ + 1, h_rate);
+        shorten(here, rate_ + 1, h_rate);
         for (int i = 0; i < modes_; ++i) bend -= rate_[1 + i] * h_rate[i];
         bend -= radius_ * alpha_dot_ * alpha_dot_;
     }

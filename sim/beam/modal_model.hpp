@@ -22,6 +22,7 @@ class ModalModel final : public Model {
     bool assemble(double* f) override;
     void solve(double* f) const override;
     double solve_held(double* f, double hub) const override;
+    void keep(const Eigen::VectorXd& x) override;
     void point(double x, BeamPoint& p) const override;
     void jacobian(double x, double* jx, double* jy, double* jchi) const override;
     Vec2 convective(double x) const override;
@@ -50,12 +51,13 @@ class ModalModel final : public Model {
     };
     // Cached because `point` and `jacobian` both need them.
     struct Local : ShapesAt {
-        bool shortened = false;             // `shortening` is that of the present state
+        long state = -1;                    // the number of the state that `shortening` belongs to
         double shortening[kMaxModes] = {};  // H(x) q (S5a)
-        Eigen::MatrixXd h;                  // H(x) at the tip, where it is needed again and again
+        Eigen::MatrixXd h;                  // H(x) of a place that is kept
     };
     void state_changed() override;
     const Local& at(double x) const;
+    void shorten(const Local& here, const double* q, double* hq) const;  // hq ← H(x) q
 
     ModelKind kind_;
     std::shared_ptr<const Tables> tables_;
@@ -63,8 +65,10 @@ class ModalModel final : public Model {
     double sin_ = 0, cos_ = 1;
     double inertia_ = 1;                // J + qᵀ(M − D)q
     double alpha_ = 0, alpha_dot_ = 0;  // of the hub relative to the frame (S13)
+    long state_ = 0;                    // the number of the present state
     mutable Eigen::VectorXd bq_, gq_;   // scratch
-    mutable Local local_, root_, tip_;  // at the last x, and at the two ends
+    mutable std::vector<Local> kept_;   // by rising x, with both ends
+    mutable Local elsewhere_;           // at the last other x
 };
 
 }  // namespace beamcam::sim

@@ -64,6 +64,8 @@ class Model {
     // the necessary torque [N m].
     virtual double solve_held(double* f, double hub) const = 0;
 
+    // Prepares for many calls at these arc positions.
+    virtual void keep(const Eigen::VectorXd& /*x*/) {}
     // Kinematics at arc position x in [0, L].
     virtual void point(double x, BeamPoint& p) const = 0;
     // ∂X/∂ξ, ∂Y/∂ξ and ∂χ/∂ξ, χ the angle of the tangent; arrays of `size`.

@@ -15,7 +15,7 @@ Vec2 point_acceleration(const Model& model, const double* acceleration, double x
 }
 
 // As many nodes as resolve the square of the highest shape.
-BeamLoads::BeamLoads(const Problem& problem)
+BeamLoads::BeamLoads(const Problem& problem, Model& model)
     : rule_(gauss_legendre(2 * (problem.beam.model == ModelKind::rigid ? 0 : problem.beam.modes) + 24,
                            problem.beam.length)),
       integral_(rule_, problem.beam.length),
@@ -24,6 +24,7 @@ BeamLoads::BeamLoads(const Problem& problem)
       line_density_(problem.beam.line_density()),
       gravity_(problem.gravity),
       offset_(contact_offset(problem)) {
+    model.keep(rule_.x);
     for (Eigen::VectorXd* v : {&force_x_, &force_y_, &turn_, &x_, &y_, &weights_}) v->resize(rule_.x.size());
 }
 

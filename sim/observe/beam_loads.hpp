@@ -12,7 +12,8 @@ namespace beamcam::sim {
 
 class BeamLoads {
   public:
-    explicit BeamLoads(const Problem& problem);
+    // `model` is that of the states to come: it keeps the nodes.
+    BeamLoads(const Problem& problem, Model& model);
 
     // In the state of the model, which must outlive the other calls, with its acceleration ξ̈; `contact`: the forces
     // that act, or null.

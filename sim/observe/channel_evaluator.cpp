@@ -228,7 +228,7 @@ double ChannelEvaluator::hub_acceleration() {
 }
 
 const BeamLoads& ChannelEvaluator::loads() {
-    if (!loads_) loads_.emplace(system_.problem());
+    if (!loads_) loads_.emplace(system_.problem(), system_.model());
     if (!loads_known_) {
         const double* acc = acceleration();
         loads_->set(model(), acc, system_.phase().touching ? &contact() : nullptr);
@@ -264,7 +264,7 @@ const BeamLoads& ChannelEvaluator::resisted_loads() {
     c.force = resisted;
     double acc[kMaxSize];
     system_.current_acceleration(t_, c, acc);
-    if (!resisted_loads_) resisted_loads_.emplace(system_.problem());
+    if (!resisted_loads_) resisted_loads_.emplace(system_.problem(), system_.model());
     resisted_loads_->set(model(), acc, &c);
     return *resisted_loads_;
 }
