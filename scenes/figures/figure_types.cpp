@@ -131,10 +131,10 @@ std::optional<std::string> needs_start_off_the_cam(const Scene& scene) {
            "\"straight\" or \"static\"";
 }
 
-std::string panel_letter(std::size_t panel) { return {static_cast<char>('a' + panel)}; }
-
 std::vector<Panel> lettered(std::vector<Panel> panels) {
-    for (std::size_t k = 0; k < panels.size() && panels.size() > 1; ++k) panels[k].letter = panel_letter(k);
+    char letter = 'a';
+    for (Panel& panel : panels)
+        if (panels.size() > 1) panel.letter = letter++;
     return panels;
 }
 

@@ -76,9 +76,7 @@ std::optional<std::string> needs_bending(const Scene& scene);
 std::optional<std::string> needs_free_hub(const Scene& scene);
 std::optional<std::string> needs_start_off_the_cam(const Scene& scene);
 
-// "(a)" is panel 0.
-std::string panel_letter(std::size_t panel);
-// Gives the panels their letters, if there are several.
+// Gives the panels their letters, from "a", if there are several.
 std::vector<Panel> lettered(std::vector<Panel> panels);
 
 // Whether an impact or a collision is a strike. A beam that rests on the cam at the start touches it without striking

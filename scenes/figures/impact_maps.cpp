@@ -79,8 +79,7 @@ FigureDrawing prepare_maps(const Scene& scene, const FigureOutput& how, MotionRe
             throw render::PictureError(fmt::format(
                 "figure impact-maps: nothing strikes the cam from {:g} s to {:g} s; raise time.end", from, to));
         const double aspect = 0.8 * static_cast<double>(panels.size());
-        for (std::size_t k = 0; k < panels.size(); ++k) panels[k].letter = panel_letter(k);
-        return {.panels = std::move(panels), .in_pairs = true, .aspect = aspect};
+        return {.panels = lettered(std::move(panels)), .in_pairs = true, .aspect = aspect};
     };
     return figure_of_motion(motion, draw);
 }
@@ -116,10 +115,10 @@ FigureDrawing prepare_histograms(const Scene& scene, const FigureOutput& how, Mo
                 "figure impact-histograms: only {} from {:g} s to {:g} s, too few for a histogram; raise time.end, or "
                 "see impact-maps",
                 counted(speeds.size(), "impact"), from, to));
-        std::vector<Panel> panels = lettered({histogram(axis_label(phrase(lang, "approach speed"), "m/s"), speeds,
-                                                        *std::ranges::max_element(speeds), lang),
-                                              histogram(kPhaseLabel, phases, 1, lang)});
-        return {.panels = std::move(panels), .aspect = 1.2};
+        return {.panels = lettered({histogram(axis_label(phrase(lang, "approach speed"), "m/s"), speeds,
+                                              *std::ranges::max_element(speeds), lang),
+                                    histogram(kPhaseLabel, phases, 1, lang)}),
+                .aspect = 1.2};
     };
     return figure_of_motion(motion, draw);
 }
