@@ -94,11 +94,14 @@ bool Film::Prepared::draw_header(Canvas& canvas) const {
     const FilmSetup& setup = *context.setup;
     const Layout& places = context.places;
     if (const auto& b = places.title; b && !setup.title.empty()) {
-        const FittedText title = fitted_title(canvas, setup.title, *b, context.look.letters);
-        cut = title.cut;
         TextStyle style = title_style(context.look.letters, context.look.palette.ink);
-        style.size = title.size;
-        canvas.text({b->x, b->y + 0.95 * context.look.letters.title}, title.markup, style);
+        const std::vector<FittedText> lines = fitted_title(canvas, setup.title, *b, context.look.letters);
+        cut = lines.back().cut;
+        for (double y = b->y + 0.95 * style.size; const FittedText& line : lines) {
+            style.size = line.size;
+            canvas.text({b->x, y - (lines.size() > 1 ? 0.9 * line.size : 0)}, line.markup, style);
+            y += 1.05 * line.size;
+        }
     }
     std::vector<const sim::Problem*> problems;
     for (int m = 0; m < context.members(); ++m) problems.push_back(&context.motion(m).problem);

@@ -123,7 +123,7 @@ struct FilmSetup : Motion {
     double fps = 60;                // frames per second, > 0: fades have durations in seconds
     std::vector<double> speeds;     // playback speed at each frame, 1 = real time; empty: always 1
     std::vector<CameraMove> moves;  // sorted by arrival
-    bool slow_motion = false;       // the standard layout shows collisions one by one
+    bool by_collision = false;      // the standard layout shows the latest collision
     std::vector<Callout> callouts;
     std::vector<FilmData> data;
     std::string warning;  // in the corner, plain text with formulas; may be empty

@@ -66,12 +66,13 @@ const PanelSlot* Layout::first(PanelKind kind) const {
 
 LayoutNode standard_grid(int width, int height, const std::vector<PanelSpec>& side, int members) {
     using enum LayoutNode::Kind;
-    constexpr int kRowOfMechanisms = 3;  // from this number on mechanisms have the whole width
-    constexpr double kBesideCharts = 1.55, kAboveRow = 1.4, kAboveCharts = 1.3;  // shares of the mechanisms
+    constexpr int kRowOfMechanisms = 3;                      // from this number on mechanisms have the whole width
+    constexpr double kBesideCharts = 1.55, kAboveRow = 1.4;  // shares of the mechanisms
     const bool beside = is_wide(width, height) && members < kRowOfMechanisms, tall = is_tall(width, height);
     LayoutNode charts{.kind = beside || tall ? rows : columns};
     for (const PanelSpec& spec : side) charts.children.push_back({.panel = spec});
-    const double share = beside ? kBesideCharts : tall ? kAboveCharts : kAboveRow;
+    const double above_charts = std::min(1.3, 2.6 / static_cast<double>(side.size()));
+    const double share = beside ? kBesideCharts : tall ? above_charts : kAboveRow;
     // Cells of mechanisms are about as wide as high.
     const double part = side.empty() ? 1 : share / (share + 1),
                  shape = beside ? part * width / height : width / (part * height);

@@ -7,6 +7,7 @@
 #include "render/film/mechanism_marks.hpp"
 #include "render/gl/bodies.hpp"
 #include "render/mechanism/cam_outline.hpp"
+#include "sim/beam/drive.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -99,7 +100,48 @@ void draw_angle(const MechanismScene& s) {
     draw_letter(s, middle, middle, "$θ$", s.at.palette.muted);
 }
 
-// ---- ω -----------------------------------------------------------------------------------------
+// ---- ω and τ -----------------------------------------------------------------------------------
+
+// An arrow along an arc about an axis, with its letter outside; clockwise if `half` > 0.
+struct TurningArrow {
+    Vec2 axis;
+    double radius = 0, middle = 0, half = 0, depth = 0;
+    Color color;
+    const char* letter = "";
+    bool halo = true;
+};
+
+static void draw_turning(const MechanismScene& s, const TurningArrow& arrow) {
+    const double u = s.at.unit, head = 17 * u, to = arrow.middle - arrow.half;
+    const double back = std::copysign(0.9 * head / arrow.radius, arrow.half);
+    const auto at = [&](double angle, double r) { return s.on(arrow.axis + down(angle) * r, arrow.depth); };
+    const Vec2 on_arc = at(arrow.middle, arrow.radius);
+    if (!s.at.shows(on_arc) || arrow.radius < 2 * head) return;
+    const Vec2 tip = at(to, arrow.radius);
+    Vec2 along = tip - at(to + back, arrow.radius);
+    // Seen from aside, the head keeps its length.
+    if (const double length = norm(along); s.view && length > 0)
+        along = along * (std::max(0.9 * head, length) / length);
+    s.arc(arrow.axis, arrow.radius, arrow.middle + arrow.half, to + back, arrow.depth);
+    s.canvas.stroke({arrow.color, 2.6 * u, {}, Cap::butt});
+    s.canvas.arrow(tip - along, tip, {arrow.color, 2.6 * u}, {head});
+    draw_letter(s, on_arc, at(arrow.middle, arrow.radius + 22 * u), arrow.letter, arrow.color, arrow.halo);
+}
+
+// Around the hub, above it on the side away from the beam. A positive torque is counter-clockwise.
+void draw_hub_torque(const MechanismScene& s) {
+    const sim::Problem& problem = s.at.problem();
+    if (!s.at.labelled() || sim::is_prescribed(problem.hub.drive)) return;
+    const double torque = sim::DriveLaw(problem.hub.drive, 0).torque(s.pose.t);
+    if (torque == 0) return;
+    draw_turning(s, {.axis = s.at.px({0, 0}),
+                     .radius = s.at.hub() + torque_arrow_distance(s.at.unit),
+                     .middle = problem.initial.angle + 0.7 * pi,
+                     .half = std::copysign(0.6, -torque),
+                     .depth = kHubDepth,
+                     .color = s.at.palette.muted,
+                     .letter = "$τ$"});
+}
 
 // The arrow is outside the circle that the disc sweeps, on the side away from the beam, in the plane of the disc's
 // front or back that is farther out there; where a bracket is there, it is on the face of the disc. Positive speed is
@@ -111,35 +153,26 @@ void draw_cam_speed(const MechanismScene& s) {
     const double to_cam = std::atan2(cam->centre.y, cam->centre.x), u = s.at.unit;
     const double beam_side = std::remainder(s.at.problem().initial.angle - to_cam, 2 * pi) >= 0 ? 1 : -1;
     const double middle = to_cam - beam_side * 0.18 * pi, reach = cam_reach(s.at.problem()) * s.at.look.camera.scale;
+    double radius = reach + 20 * u;
+    const auto half = [&](double most) { return std::min(most, 150 * u / radius) / 2; };
     const auto behind = [&](double angle) {  // a bracket is there, behind the arrow
-        const Vec2 at = axis + down(angle) * (reach + 20 * u);
+        const Vec2 at = axis + down(angle) * radius;
         return std::ranges::any_of(s.shape.brackets, [&](const MechanismShape::Bracket& each) {
             return at.y > each.shaft.y && std::abs(at.x - each.shaft.x) < each.foot + 2 * u;
         });
     };
-    const bool on_face = behind(middle - 0.4) || behind(middle) || behind(middle + 0.4);
-    const double radius = on_face ? 0.45 * reach : reach + 20 * u;
-    const Color color = on_face ? ink_on_disc(s) : s.at.palette.muted;
-    const double half = std::min(on_face ? 1.4 : 0.8, 150 * u / radius) / 2, head = 17 * u;
-    const double from = middle + (cam->speed > 0 ? half : -half), to = 2 * middle - from;
-    const double back = (to < from ? 1 : -1) * 0.9 * head / radius;
+    const bool on_face = behind(middle - half(0.8)) || behind(middle) || behind(middle + half(0.8));
+    if (on_face) radius = 0.45 * reach;
     const auto out = [&](double depth) { return norm(s.on(axis + down(middle) * radius, depth) - s.on(axis, 0)); };
-    const double depth = on_face || out(kDiscDepth) > out(-kDiscDepth) ? kDiscDepth : -kDiscDepth;
-    const auto at = [&](double angle, double r) { return s.on(axis + down(angle) * r, depth); };
-    const Vec2 on_arc = at(middle, radius);
-    if (!s.at.shows(on_arc) || radius < 2 * head) return;
-    const Vec2 tip = at(to, radius);
-    Vec2 along = tip - at(to + back, radius);
-    // Seen from aside, the head keeps its length.
-    if (const double length = norm(along); s.view && length > 0)
-        along = along * (std::max(0.9 * head, length) / length);
-    const auto draw = [&] {
-        s.arc(axis, radius, from, to + back, depth);
-        s.canvas.stroke({color, 2.6 * u, {}, Cap::butt});
-        s.canvas.arrow(tip - along, tip, {color, 2.6 * u}, {head});
-        draw_letter(s, on_arc, at(middle, radius + 22 * u), "$ω$", color, !on_face);
-    };
-    on_face ? s.canvas.without_halo(draw) : draw();
+    const TurningArrow arrow{.axis = axis,
+                             .radius = radius,
+                             .middle = middle,
+                             .half = std::copysign(half(on_face ? 1.4 : 0.8), cam->speed),
+                             .depth = on_face || out(kDiscDepth) > out(-kDiscDepth) ? kDiscDepth : -kDiscDepth,
+                             .color = on_face ? ink_on_disc(s) : s.at.palette.muted,
+                             .letter = "$ω$",
+                             .halo = !on_face};
+    on_face ? s.canvas.without_halo([&] { draw_turning(s, arrow); }) : draw_turning(s, arrow);
 }
 
 // ---- F -----------------------------------------------------------------------------------------

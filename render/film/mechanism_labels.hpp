@@ -1,6 +1,6 @@
-// The letters on a mechanism, each at a fixed place: θ outside its arc, ω beside the arrow of the cam's speed, F beyond
-// the tip of the force's arrow. A halo keeps them readable where they meet a body; their numbers are in the charts and
-// beside the clock.
+// The letters on a mechanism, each at a fixed place: θ outside its arc, ω and τ beside the arrows
+// of the cam's speed and the hub's torque, F beyond the tip of the force's arrow. A halo keeps them readable where they
+// meet a body; their numbers are in the charts and beside the clock.
 #pragma once
 
 #include <optional>
@@ -26,6 +26,7 @@ std::optional<double> arc_radius(const MechanismView& home);
 
 void draw_angle(const MechanismScene& s);
 void draw_cam_speed(const MechanismScene& s);
+void draw_hub_torque(const MechanismScene& s);
 void draw_force(const MechanismScene& s);
 
 }  // namespace beamcam::render

@@ -145,6 +145,7 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
     if (at.member == 0) draw_measured_beams(s);
     if (s.view) draw_angle(s);  // in the plane of the front of the beam: the mount must not hide it
     draw_cam_speed(s);
+    draw_hub_torque(s);
     rings_.draw(s);
     draw_force(s);
 }

@@ -28,6 +28,16 @@ bool has_force(const Motion& motion) {
     return force && std::ranges::count_if(*force, [](double v) { return v > 0; }) > (is_impulsive(motion) ? 1 : 0);
 }
 
+// A deflection with more periods than a chart can show has a window of some of them.
+std::optional<double> window_of(const sim::Table& chart, const std::vector<Channel>& channels) {
+    constexpr int kMost = 30, kShown = 8;
+    const auto *t = column(chart, {ChannelKind::t, 0}), *v = column(chart, {ChannelKind::tip_deflection, 0});
+    if (!t || !v || channels != std::vector<Channel>{{ChannelKind::tip_deflection, 0}}) return {};
+    int periods = 0;
+    for (std::size_t i = 2; i < v->size(); ++i) periods += (*v)[i - 2] < (*v)[i - 1] && (*v)[i - 1] >= (*v)[i];
+    return periods > kMost ? std::optional(kShown * (t->back() - t->front()) / periods) : std::nullopt;
+}
+
 std::vector<PanelSpec> standard(const FilmSetup& setup) {
     const Motion* shown = &setup;  // a motion with a cam, if there is one
     bool force = has_force(setup);
@@ -36,12 +46,13 @@ std::vector<PanelSpec> standard(const FilmSetup& setup) {
         force = force || has_force(other);
     }
     // A still of an instant in contact shows that collision, as slow motion does.
-    const bool in_contact =
-        setup.frames() == 1 && setup.others.empty() && setup.pose(0).nearest && setup.pose(0).nearest->force > 0;
-    std::vector<PanelSpec> specs = standard_panels(shown->problem, setup.slow_motion || in_contact);
+    const bool still = setup.frames() == 1, in_contact = setup.pose(0).nearest && setup.pose(0).nearest->touching;
+    std::vector<PanelSpec> specs =
+        standard_panels(shown->problem, setup.by_collision || (still && setup.others.empty() && in_contact));
+    for (PanelSpec& s : specs) s.window = window_of(setup.chart, s.channels);
     // Panels without data are removed.
     std::erase_if(specs, [&](const PanelSpec& s) {
-        if (s.kind != PanelKind::strip) return false;
+        if (s.kind == PanelKind::close_up) return !setup.others.empty() || (still && !in_contact);
         const ChannelKind kind = s.channels.front().kind;
         return (kind == ChannelKind::tip_deflection && !column(setup.chart, s.channels.front())) ||
                (kind == ChannelKind::contact_force && (!force || (s.by_collision && is_impulsive(*shown))));

@@ -7,8 +7,8 @@
 namespace beamcam::render {
 namespace {
 
-constexpr double kSmallTitle = 0.7, kSmallParameters = 0.85;  // of the usual sizes
-constexpr double kBetweenParameters = 0.75;                   // gap between parameters, in sizes of their letters
+constexpr double kSmallParameters = 0.85;    // of the usual size
+constexpr double kBetweenParameters = 0.75;  // gap between parameters, in sizes of their letters
 
 // With ordinary spaces, for a terminal.
 std::string plain(const std::string& markup) {
@@ -24,8 +24,23 @@ TextStyle title_style(const Letters& letters, Color color) {
     return {.size = letters.title, .color = color, .weight = Weight::semibold};
 }
 
-FittedText fitted_title(const Canvas& canvas, const std::string& title, const Box& box, const Letters& letters) {
-    return fitted_text(canvas, title, title_style(letters), kSmallTitle * letters.title, box.w);
+std::vector<FittedText> fitted_title(const Canvas& canvas, const std::string& title, const Box& box,
+                                     const Letters& letters) {
+    const auto fitted = [&](const std::string& text, TextStyle style) {
+        return fitted_text(canvas, text, style, letters.heading, box.w);
+    };
+    TextStyle style = title_style(letters);
+    const FittedText whole = fitted(title, style);
+    if (!whole.cut) return {whole};
+    style.size = letters.heading;
+    std::size_t end = 0;  // of the first line
+    bool formula = false;
+    for (std::size_t i = 1; i < title.size(); ++i) {
+        formula = formula != (title[i - 1] == '$');
+        if (title[i] == ' ' && !formula && !fitted(title.substr(0, i), style).cut) end = i;
+    }
+    if (end == 0) return {whole};
+    return {fitted(title.substr(0, end), style), fitted(title.substr(end + 1), style)};
 }
 
 ParameterLine parameter_line(const Canvas& canvas, const Layout& places, const std::vector<std::string>& pieces) {
@@ -62,7 +77,7 @@ std::vector<std::string> omitted_text(int width, int height, const std::optional
         const Fonts fonts(needs_cjk(title));
         Image scratch(1, 1);
         const Canvas canvas(scratch, fonts);
-        if (titled && fitted_title(canvas, title, *places.title, places.letters).cut)
+        if (titled && fitted_title(canvas, title, *places.title, places.letters).back().cut)
             out.emplace_back("the end of the title");
         missing = parameter_line(canvas, places, missing).omitted;
     }

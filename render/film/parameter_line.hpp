@@ -29,7 +29,9 @@ ParameterLine parameter_line(const Canvas& canvas, const Layout& places, const s
 
 // Style of the title at full size.
 TextStyle title_style(const Letters& letters, Color color = {});
-FittedText fitted_title(const Canvas& canvas, const std::string& title, const Box& box, const Letters& letters);
+// In the size of titles, else in that of headings on one line or two, of which the first ends between words.
+std::vector<FittedText> fitted_title(const Canvas& canvas, const std::string& title, const Box& box,
+                                     const Letters& letters);
 
 // The texts for which a picture of this size, with this layout or the standard one, has no space: "the title" or "the
 // end of the title", parameters, "colour scales". Loads fonts, unless there is no space for title and parameters.

@@ -149,7 +149,7 @@ std::optional<Color> energy_color(const Palette& p, ChannelKind kind) {
         case ChannelKind::energy_kinetic:
             return p.motion;
         case ChannelKind::energy_elastic:
-            return series_color(p, 1);
+            return p.tint(series_color(p, 4), 0.75);  // not that of a compared motion
         case ChannelKind::energy_contact:
             return p.contact;
         case ChannelKind::loss_structural:
@@ -303,8 +303,7 @@ ChartContent strip_content(const FilmContext& context, const PanelSpec& spec) {
         values = {0, 1};
     if (is_force(first) && !unit.empty()) unit = context.scales.force_unit.symbol + unit;
     c.set_values(values, symbols, unit);
-    if (is_force(first)) c.panel.y.unit = context.scales.force_unit.factor;
-    if (is_force(first)) c.panel.y.round_ends = c.rows == 1;  // rows need the height
+    if (is_force(first)) c.panel.y.unit = context.scales.force_unit.factor, c.panel.y.round_ends = false;
     return c;
 }
 

@@ -44,6 +44,7 @@ class StripPanel final : public ChartPanel {
 
 // The channels during one collision, from shortly before its first touch at t₀. The chart stays until the next
 // collision begins; before the first one it shows the axes of the first one. All collisions share the axis of values.
+// Collisions of compared motions that follow each other within three times their duration are one.
 class CollisionPanel final : public FilmPanel {
     struct Shown final : State {
         std::optional<Chart> chart;
@@ -56,15 +57,21 @@ class CollisionPanel final : public FilmPanel {
           spec_(slot.spec),
           box_(slot.box),
           plot_(plot_area(slot.box, context.look.unit, context.look.letters.words)) {
-        for (const sim::Impact& i : context.motion(0).impacts) {
+        std::vector<std::pair<sim::Impact, std::size_t>> impacts;  // and their motions
+        for (int m = 0; m < context.members(); ++m)
+            for (const sim::Impact& i : context.motion(m).impacts) impacts.emplace_back(i, std::size_t(m));
+        std::ranges::stable_sort(impacts, {}, [](const auto& each) { return each.first.t_start; });
+        std::vector<int> last(static_cast<std::size_t>(context.members()), -1);  // collision of each motion
+        for (const auto& [i, m] : impacts) {
             if (i.t_start > context.clock.span.high) break;
             const double end = std::min(i.t_end.value_or(context.clock.span.high), context.clock.span.high);
             if (context.frames() > 1 && end < context.clock.at(0)) continue;  // before the film
-            if (spans_.empty() || i.collision != last_) spans_.push_back({{i.t_start, end}, end, i.collision});
+            const bool begins = std::exchange(last[m], i.collision) != i.collision;
+            if (spans_.empty() || (begins && (last.size() == 1 || i.t_start > spans_.back().until())))
+                spans_.push_back({{i.t_start, end}, end, i.collision});
             Collision& now = spans_.back();
             now.span.high = std::max(now.span.high, end);
             now.shown = end - i.t_start > kLasting ? i.t_start + kShown : now.span.high;
-            last_ = i.collision;
         }
         if (shows_peaks(spec_) && context.setup->view.show.labels) peaks_.emplace(context);
         content_ = strip_content(context, spec_);
@@ -85,9 +92,11 @@ class CollisionPanel final : public FilmPanel {
         }
         s.chart->draw_background(canvas);
         std::vector<double> readings;
-        for (const Channel channel : spec_.channels) readings.push_back(reading(context_, 0, frame, channel));
         std::vector<Vec2> peaks;
-        if (peaks_) peaks.push_back(peaks_->of(0, now) - Vec2{start(s.which), 0});
+        for (const Channel channel : spec_.channels)
+            for (int m = 0; m < context_.members(); ++m) readings.push_back(reading(context_, m, frame, channel));
+        for (int m = 0; peaks_ && m < context_.members(); ++m)
+            peaks.push_back(peaks_->of(m, now) - Vec2{start(s.which), 0});
         s.chart->draw_moving(canvas, now - start(s.which), readings, peaks);
     }
 
@@ -98,6 +107,7 @@ class CollisionPanel final : public FilmPanel {
         Range span;
         double shown = 0;  // end of its time axis
         int number = 1;
+        double until() const { return span.high + 3 * (span.high - span.low); }
     };
 
     // The collision that began last.
@@ -121,7 +131,8 @@ class CollisionPanel final : public FilmPanel {
                 time = {first - kShown - span.low, first - span.low};
             else if (context_.clock.span.low > shown_until && span.high > context_.clock.span.low)
                 time = {context_.clock.span.low - span.low, std::min(span.high, context_.clock.span.high) - span.low};
-            c.words = context_.look.translate(fmt::format("Collision {}", spans_[which].number)) + ", ";
+            if (context_.members() == 1)
+                c.words = context_.look.translate(fmt::format("Collision {}", spans_[which].number)) + ", ";
         }
         const Prefix prefix = time.high < 1 ? prefix_for(time.high) : Prefix{"", 1};
         c.set_time(time, prefix.factor, fmt::format("($t$ − $t$_{{0}}) / {}s", prefix.symbol));
@@ -144,7 +155,6 @@ class CollisionPanel final : public FilmPanel {
     std::optional<Peaks> peaks_;
     Box box_, plot_;
     std::vector<Collision> spans_;
-    int last_ = -1;
     ChartContent content_;
     std::vector<figure::Series> curves_;
 };
@@ -156,7 +166,7 @@ PanelType strip_panel() {
             .name = "strip",
             .smallest = {300, 150},
             .make = [](const FilmContext& context, const PanelSlot& slot) -> std::unique_ptr<FilmPanel> {
-                if (slot.spec.by_collision && context.members() == 1 && context.setup->problem.cam)
+                if (slot.spec.by_collision && context.setup->problem.cam)
                     return std::make_unique<CollisionPanel>(context, slot);
                 return std::make_unique<StripPanel>(context, slot);
             },

@@ -42,7 +42,9 @@ Bounds ViewExtent::shown(double scale, double u, bool small) const {
         const double hub = scale > 0 ? hub_radius(*p, {scale, {}}, u) : 0;  // [px]
         const double own = mark_unit(*p, {scale, {}}, u);
         const double around = turned && !small ? least_arc(hub, own) + 40 * u - hub : 12 * own;
-        all.add({0, 0}, std::max(hub * pixel, p->hub.radius) + around * pixel);
+        const bool driven = !std::holds_alternative<sim::FreeDrive>(p->hub.drive) && !sim::is_prescribed(p->hub.drive);
+        const double arrow = driven && !small ? torque_arrow_distance(u) + 34 * u : 0;
+        all.add({0, 0}, std::max(hub * pixel, p->hub.radius) + std::max(around, arrow) * pixel);
         if (scale > 0) all.add({0, -floor_depth(*p, {scale, {}}, u) * pixel});
         marks = std::max(marks, own);
     }

@@ -43,6 +43,8 @@ bool is_small(const Box& box, double unit);
 bool has_names(const Box& box, double unit);
 // Smallest radius of the arc of θ around a hub of this radius [px]. `marks`: mark_unit.
 double least_arc(double hub, double marks);
+// Distance of the arrow of a torque from the hub [px].
+inline double torque_arrow_distance(double unit) { return 18 * unit; }
 // Length of the arrow of a force with this fraction of the film's largest [px]. `marks`: mark_unit.
 double force_arrow_length(double share, bool small, double marks);
 // Distance of the letter of a force from the contact, clear of the arrow and of a beam of this depth [px].

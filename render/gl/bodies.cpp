@@ -25,8 +25,8 @@ Materials materials(const Palette& palette) {
             .bracket = rgb(dark ? 0x4A5361 : 0x8C97A6)};
 }
 
-constexpr double kClampDepth = 0.6, kBracketFront = -0.75;       // as the depths of the header
-constexpr double kShadow = 0.14, kContact = 0.3, kFloor = 0.05;  // opacities
+constexpr double kClampDepth = 0.6, kBracketFront = -0.75;                       // as the depths of the header
+constexpr double kShadow = 0.14, kOnFloor = 0.2, kContact = 0.4, kFloor = 0.06;  // opacities
 
 // ---- the bodies --------------------------------------------------------------------------------
 
@@ -227,17 +227,17 @@ void Bodies::floor_shadows(SoftShadows& out) const {
         const Vec2 at = Vec2{p.x, 0} + fall(height);
         beam.push_back({at - Vec2{0, half}, at + Vec2{0, half}, soft(height)});
     }
-    out.ribbon(beam, kShadow, 0);
+    out.ribbon(beam, kOnFloor, 0);
     for (const MechanismShape::Bracket& each : shape_.brackets) {
         const double x = up(each.shaft).x;
-        out.rectangle({x - each.foot, -kMountDepth * wide}, {x + each.foot, kBracketFront * wide}, 12 * u, kContact);
+        out.rectangle({x - each.foot, -kMountDepth * wide}, {x + each.foot, kBracketFront * wide}, 40 * u, kContact);
     }
     const auto below = [&](const Prism& body, double depth) {
         Bounds seen;
         for (const Vec2 p : body.outline) seen.add(p);
         const double height = std::max(seen.y0 - out.level, 0.0);
         const Vec2 at = fall(height), deep{0, depth * wide};
-        out.rectangle(Vec2{seen.x0, 0} + at - deep, Vec2{seen.x1, 0} + at + deep, soft(height), kShadow);
+        out.rectangle(Vec2{seen.x0, 0} + at - deep, Vec2{seen.x1, 0} + at + deep, soft(height), kOnFloor);
     };
     below(cylinder(hinge_, shape_.hub), kHubDepth);
     if (shape_.disc) below(cam(), kDiscDepth);

@@ -232,8 +232,8 @@ MechanismShape mechanism_shape(const sim::Problem& problem, const sim::Pose& pos
     s.pin = std::min(7 * look.unit, 0.4 * s.hub);
     s.floor = s.hinge.y + floor_depth(problem, look.camera, look.unit);
     const auto add_bracket = [&](Vec2 shaft, double top) {
-        s.brackets.push_back(
-            {shaft, top, 1.1 * top + 0.2 * (s.floor - shaft.y) + 8 * mark_unit(problem, look.camera, look.unit)});
+        const double marks = mark_unit(problem, look.camera, look.unit);
+        s.brackets.push_back({shaft, top, 1.1 * top + std::min(0.2 * (s.floor - shaft.y), 40 * marks) + 8 * marks});
     };
     add_bracket(s.hinge, 0.8 * s.hub);
     if (problem.cam) s.disc = disc_shape(problem, pose, look.camera, look.unit);

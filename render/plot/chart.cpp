@@ -42,12 +42,13 @@ void ChartContent::set_values(const Range& values, const std::string& symbol, co
 Chart::Chart(ChartContent content, const Box& box, const Box& plot, const figure::PlotStyle& style, const Fonts& fonts)
     : c_(std::move(content)), box_(box), area_(plot), style_(style), palette_(*style.palette) {
     make_rows(fonts);
-    const double finest = plots_[0].y().step() / 50;  // of the reading
+    double finest = 0;  // of the reading
+    for (const figure::Plot& row : plots_) finest = std::max(finest, row.y().step() / 50);
     digits_ = std::clamp(-static_cast<int>(std::floor(std::log10(finest) + 1e-9)), 0, 6);
     if (!windowed()) draw_whole_past(fonts);
 }
 
-// Rows that would be too low are one.
+// Rows that would be too low are one. A row with values below a twentieth of the axis has an axis of its own.
 void Chart::make_rows(const Fonts& fonts) {
     const auto wanted = static_cast<double>(c_.rows);
     const double gap = std::round(kBetweenRows * style_.numbers), high = std::floor((area_.h + gap) / wanted - gap);
@@ -57,6 +58,9 @@ void Chart::make_rows(const Fonts& fonts) {
         if (rows == 1) break;
         row.series.assign(c_.panel.series.begin() + std::ptrdiff_t(rows), c_.panel.series.end());
         row.series.push_back(c_.panel.series[k]);
+        const std::vector<double>& values = row.series.back().y;
+        const double largest = values.empty() ? 0 : std::ranges::max(values);
+        if (largest > 0 && largest < 0.05 * c_.values().high) row.y.to = 1.2 * largest;
         std::erase_if(row.events, [k](const figure::EventTick& at) { return at.lane != static_cast<int>(k); });
         for (figure::EventTick& at : row.events) at.lane = 0, at.lanes = 1;
     }
@@ -107,7 +111,10 @@ void Chart::draw_whole_past(const Fonts& fonts) {
 }
 
 void Chart::draw_moving(Canvas& canvas, double t, std::span<const double> readings, std::span<const Vec2> peaks) const {
-    const Range view = windowed() ? window_around(t, *c_.window) : time();
+    Range view = windowed() ? window_around(t, *c_.window) : time();
+    // A window moves within the time of the chart.
+    const double shift = std::max(std::min(0.0, time().high - view.high), time().low - view.low);
+    if (windowed()) view = {view.low + shift, view.high + shift};
     // Past and future meet at the cursor: each is drawn within its own part of the plot.
     const double cut = cursor_column(view, t) + 1, top = area_.y - kAround;
     if (!windowed() && t < time().low) return;
@@ -154,8 +161,8 @@ void Chart::draw_cursor(Canvas& canvas, double x, std::span<const double> readin
     draw_readings(canvas, readings);
 }
 
-// Above its point and what its curve has under the number, or to the left where the row has no room, and before the
-// cursor; none that the reading states, nor where curves share a row.
+// Above its point and what its curve has under the number, or where the row has no room beside it, on the side where
+// the curve is lower; before the cursor; none that the reading states, nor where curves share a row.
 void Chart::draw_peaks(Canvas& canvas, const std::vector<figure::Plot>& rows, double cursor,
                        std::span<const double> readings, std::span<const Vec2> peaks) const {
     const double size = style_.numbers, gap = 8 * style_.unit;
@@ -171,16 +178,24 @@ void Chart::draw_peaks(Canvas& canvas, const std::vector<figure::Plot>& rows, do
         const std::string text = reading_text(peaks[i].y);
         if (i < readings.size() && text == reading_text(readings[i])) continue;
         const double wide = canvas.measure(text, style).w;
+        const auto top_before = [&](double end) {  // of the curve under a text that ends there
+            double top = row.box().bottom();
+            for (std::size_t k = 0; k < c_.panel.series[i].x.size(); ++k)
+                if (const Vec2 p = row.at(c_.panel.series[i].x[k], c_.panel.series[i].y[k]);
+                    p.x > end - wide && p.x < end)
+                    top = std::min(top, p.y);
+            return top;
+        };
         double end = std::min(at.x + wide / 2, cursor - gap);
         if (end < area_.x + wide) end = cursor + gap + wide;  // there is no room before the cursor
-        double top = at.y;
-        for (std::size_t k = 0; k < c_.panel.series[i].x.size(); ++k)
-            if (const Vec2 p = row.at(c_.panel.series[i].x[k], c_.panel.series[i].y[k]); p.x > end - wide && p.x < end)
-                top = std::min(top, p.y);
-        const bool above = top > row.box().y + (i == 0 ? 0.7 : 1) * size;  // ticks of events are above lower rows
-        canvas.text(
-            above ? Vec2{end, top - 0.45 * size} : Vec2{std::max(at.x - gap, area_.x + wide), at.y + 0.35 * size}, text,
-            style);
+        const double top = std::min(at.y, top_before(end)), left = at.x - gap, right = at.x + gap + wide;
+        if (top > row.box().y + (i == 0 ? 0.7 : 1) * size) {  // ticks of events are above lower rows
+            canvas.text({end, top - 0.45 * size}, text, style);
+            continue;
+        }
+        const bool fits = right < cursor - gap, leftmost = left < area_.x + wide;
+        const bool to_right = fits && (leftmost || top_before(right) > top_before(left));
+        canvas.text({to_right ? right : std::max(left, area_.x + wide), at.y + 0.35 * size}, text, style);
     }
 }
 

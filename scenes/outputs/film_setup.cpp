@@ -101,7 +101,7 @@ render::FilmSetup film_setup(const Plan& plan, const PlannedPictures& p, const S
     setup.comparison = p.comparison;
     if (p.kind != PlannedPictures::Kind::still) setup.fps = p.span.fps.value();
     setup.speeds = p.times.speeds;
-    setup.slow_motion = is_slow_motion(p, p.end_time);
+    setup.by_collision = shows_latest_collision(p, p.end_time);
     setup.callouts = p.times.callouts;
     setup.data = data_of(scene);
     setup.moves = p.times.moves;

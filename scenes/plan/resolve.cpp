@@ -134,13 +134,12 @@ double end_of(const PictureOutput& p, const Scene& scene) {
     return p.at.kind == Instant::Kind::time ? std::max(p.at.t, scene.end_time) : scene.end_time;
 }
 
-// A strip of one collision at a time needs more rows than one of the whole time, a page more instants. A still at an
-// event may be in contact, and then has such a strip.
+// A strip of one collision at a time needs more rows than one of the whole time, a page more instants. A still by time
+// has enough of them.
 bool shows_collisions(const PictureOutput& p, const Scene& scene) {
-    if (!p.compare.empty() || !scene.problem.cam) return false;
-    return p.kind == PictureOutput::Kind::page ||
-           (p.kind == PictureOutput::Kind::still && p.at.is_event() && !p.layout) ||
-           std::ranges::any_of(panels_of(p, scene, end_of(p, scene)), &render::PanelSpec::by_collision);
+    if (p.kind == PictureOutput::Kind::page) return scene.problem.cam.has_value();
+    if (p.kind == PictureOutput::Kind::still && !p.at.is_event() && !p.layout) return false;
+    return std::ranges::any_of(panels_of(p, scene, end_of(p, scene)), &render::PanelSpec::by_collision);
 }
 
 bool ends_at_event(const PictureOutput& p) { return p.kind != PictureOutput::Kind::still && p.span.to_event; }
@@ -171,7 +170,7 @@ ResolvedOutput resolved_picture(std::size_t index, PictureOutput p, const Scene&
     FilmTimes times;
     switch (p.kind) {
         case PictureOutput::Kind::still:
-            times = still_times(p.at, motion, end, collisions);
+            times = still_times(p.at, motion, end, collisions ? slowed : std::vector<sim::Impact>{});
             break;
         case PictureOutput::Kind::page:
             p.view.style = render::Style::flat;
@@ -265,13 +264,14 @@ std::vector<render::PanelSpec> panels_of(const PictureOutput& p, const Scene& sc
     const sim::Problem* shown = p.compare.empty() ? &scene.problem : &p.compare.front().problem;
     for (const Compared& each : p.compare)
         if (!shown->cam) shown = &each.problem;
-    return render::standard_panels(*shown, is_slow_motion(p, end_time));
+    return render::standard_panels(*shown, shows_latest_collision(p, end_time));
 }
 
-bool is_slow_motion(const PictureOutput& p, double end_time) {
-    return p.compare.empty() &&
-           (p.span.speed.around || p.span.speed.factor <= 0.1 ||
-            (p.span.duration && !ends_at_event(p) && end_time - p.span.from <= 0.1 * *p.span.duration));
+bool shows_latest_collision(const PictureOutput& p, double end_time) {
+    constexpr double kSlow = 0.3;  // of real time
+    if (p.kind == PictureOutput::Kind::still) return p.at.is_event() || !p.compare.empty();
+    return p.span.speed.around || p.span.speed.factor <= kSlow ||
+           (p.span.duration && !ends_at_event(p) && end_time - p.span.from <= kSlow * *p.span.duration);
 }
 
 FigureOutput resolved(const FigureOutput& how, const Scene& scene, const FindEvents& find) {

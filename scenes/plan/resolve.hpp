@@ -44,8 +44,9 @@ double events_until(const Output& output, const Scene& scene);
 
 // The panels of charts in a picture that ends at `end_time` [s].
 std::vector<render::PanelSpec> panels_of(const PictureOutput& p, const Scene& scene, double end_time);
-// True for a film of one motion that shows its collisions in slow motion.
-bool is_slow_motion(const PictureOutput& p, double end_time);
+// True for slow motion, and for a still of an event or of several motions: the standard layout shows the latest
+// collision.
+bool shows_latest_collision(const PictureOutput& p, double end_time);
 // The figure with times in place of events; `find` searches the first compared motion, else the scene's.
 FigureOutput resolved(const FigureOutput& how, const Scene& scene, const FindEvents& find);
 

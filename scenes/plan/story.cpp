@@ -142,7 +142,7 @@ LayoutNode impact_layout(bool has_force, const Size& size) {
     constexpr int kSmall = 540;  // height of a picture without room for four panels [px]
     if (size.width < size.height) return group(rows, {near, group(columns, {overview, contact}, 1.4), force});
     if (size.height < kSmall) return group(columns, {leaf({.kind = PanelKind::mechanism}, 1.55), force});
-    return group(rows, {group(columns, {near, group(rows, {overview, contact})}, 2.4), force});
+    return group(rows, {group(columns, {near, group(rows, {overview, contact})}, 1.9), force});
 }
 
 // The captions of a collision, from the first touch to `liftoff`.

@@ -177,14 +177,14 @@ FilmTimes warped(const FrameSpan& span, double to, const sim::Result& motion, co
 enum class Contacts { collisions, impacts };
 
 // Rows that resolve contacts; fewer of each if there are many.
-std::vector<double> rows_of(Contacts which, const sim::Result& motion, double from, double to) {
+std::vector<double> rows_of(Contacts which, const std::vector<sim::Impact>& impacts, double from, double to) {
     const bool whole = which == Contacts::collisions;
     struct Span {
         double low, high;
     };
     std::vector<Span> spans;
     std::optional<int> last;
-    for (const sim::Impact& i : motion.impacts) {
+    for (const sim::Impact& i : impacts) {
         if (i.t_start > to) break;
         if (!whole || last != i.collision) spans.push_back({i.t_start, i.t_start});
         last = i.collision;
@@ -258,7 +258,7 @@ FilmTimes film_times(const FrameSpan& with_events, double end_time, const sim::R
         merge(out.chart, fine);
         merge(out.trace, fine);
     }
-    if (collisions) merge(out.chart, rows_of(Contacts::collisions, motion, span.from, to));
+    if (collisions) merge(out.chart, rows_of(Contacts::collisions, slowed, span.from, to));
     out.survey = surveyed(span.from, to);
     out.path = between(out.frames);
     return out;
@@ -266,22 +266,23 @@ FilmTimes film_times(const FrameSpan& with_events, double end_time, const sim::R
 
 FilmTimes page_times(const FrameSpan& span, double end_time, const sim::Result& motion) {
     FilmTimes out = film_times(span, end_time, motion);
-    merge(out.frames, rows_of(Contacts::impacts, motion, span.from, span.to.value_or(end_time)));
+    merge(out.frames, rows_of(Contacts::impacts, motion.impacts, span.from, span.to.value_or(end_time)));
     return out;
 }
 
-FilmTimes still_times(const Instant& at, const sim::Result& motion, double until, bool collisions) {
+FilmTimes still_times(const Instant& at, const sim::Result& motion, double until,
+                      const std::vector<sim::Impact>& impacts) {
     FilmTimes out;
     const double t = instant_of(at, motion);
     out.frames = {t};
     // An impact is not visible at its first touch: the charts continue to the end of its collision.
     const double ahead = at.kind == Instant::Kind::time ? t : std::max(t, std::min(end_of_collision(motion, t), until));
-    out.chart = rows(0, t, chart_rate(t));
+    out.chart = rows(0, t, std::max(chart_rate(t), std::min(kLatestRate, kMostChartPoints / t)));
     if (ahead > t) merge(out.chart, rows(t, ahead, 600 / (ahead - t)));
     // The collision that a still shows may be milliseconds long.
     merge(out.chart, rows(std::max(0.0, t - kLatest), t, kLatestRate));
     out.trace = out.chart;
-    if (collisions) merge(out.chart, rows_of(Contacts::collisions, motion, 0, std::max(t, ahead)));
+    merge(out.chart, rows_of(Contacts::collisions, impacts, 0, std::max(t, ahead)));
     out.survey = surveyed(0, std::max(t, until));
     return out;
 }

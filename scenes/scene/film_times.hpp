@@ -49,8 +49,9 @@ FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& 
                      const std::vector<sim::Impact>& slowed, bool collisions = false);
 // The instants of a page: those of `span`, and more within impacts, so that the force is known between them.
 FilmTimes page_times(const FrameSpan& span, double end_time, const sim::Result& motion);
-// `until`: end of the motion that determines the scales [s].
-FilmTimes still_times(const Instant& at, const sim::Result& motion, double until, bool collisions = false);
+// `until`: end of the motion that determines the scales [s]. `impacts`: charts get more rows within their collisions.
+FilmTimes still_times(const Instant& at, const sim::Result& motion, double until,
+                      const std::vector<sim::Impact>& impacts = {});
 
 // The camera's movements to the keyframes. Throws render::PictureError for an event that does not occur; `shortened`:
 // such a keyframe is skipped.

@@ -73,35 +73,39 @@ TEST(ParameterLine, WhatFindsNoRoomIsNamedInPlainWords) {
     EXPECT_EQ(tiny.front(), "L = 1 m");
     EXPECT_EQ(tiny.back(), "colour scales");
     const std::string essay =
-        "A beam falls onto a cam that turns, strikes it, bounces, strikes again and follows it to the end";
+        "A beam falls onto a cam that turns, strikes it, bounces, strikes again and follows it to the end, "
+        "with or without friction, at any speed of the cam, for a beam of any length";
     EXPECT_EQ(omitted_text(480, 270, {}, essay, {&problem}).front(), "the end of the title");
     EXPECT_TRUE(omitted_text(1920, 1080, {}, essay, {&problem}).empty());
     EXPECT_EQ(omitted_text(160, 90, {}, "Fall", {&problem}).front(), "the title");
     EXPECT_EQ(tiny[5], "K = 10⁸ N m^−1.5, c_r = 0.7");
 }
 
-TEST(ParameterLine, ATitleHasTwoSizesThenAnEllipsis) {
+TEST(ParameterLine, ATitleHasTwoSizesThenTwoLinesThenAnEllipsis) {
     Image image(1, 1);
     const Fonts fonts(true);
     const Canvas canvas(image, fonts);
     const double natural = canvas.measure("A beam falls", title_style({})).w;
     const auto fitted = [&](const std::string& title, double width) {
-        const FittedText out = fitted_title(canvas, title, {0, 0, width, 54}, {});
-        EXPECT_LE(canvas.measure(out.markup, {.size = out.size, .weight = Weight::semibold}).w, width) << title;
-        return out;
+        const std::vector<FittedText> lines = fitted_title(canvas, title, {0, 0, width, 54}, {});
+        for (const FittedText& line : lines)
+            EXPECT_LE(canvas.measure(line.markup, {.size = line.size, .weight = Weight::semibold}).w, width) << title;
+        return lines;
     };
-    const FittedText whole = fitted("A beam falls", natural + 1), smaller = fitted("A beam falls", 0.8 * natural),
-                     cut = fitted("A beam falls", 0.5 * natural);
-    EXPECT_EQ(whole.size, title_style({}).size);
-    EXPECT_LT(smaller.size, whole.size);
-    EXPECT_EQ(smaller.markup, "A beam falls");
-    EXPECT_TRUE(cut.cut);
-    EXPECT_EQ(cut.size, smaller.size);
-    EXPECT_TRUE(cut.markup.starts_with("A be") && cut.markup.ends_with("…")) << cut.markup;
+    const auto whole = fitted("A beam falls", natural + 1), smaller = fitted("A beam falls", 0.8 * natural),
+               two = fitted("A beam falls", 0.5 * natural), cut = fitted("A beam falls", 0.25 * natural);
+    EXPECT_EQ(whole.front().size, title_style({}).size);
+    EXPECT_LT(smaller.front().size, whole.front().size);
+    EXPECT_EQ(smaller.front().markup, "A beam falls");
+    ASSERT_EQ(two.size(), 2u);
+    EXPECT_EQ(two[0].markup, "A beam");
+    EXPECT_EQ(two[1].markup, "falls");
+    EXPECT_EQ(two[1].size, smaller.front().size);
+    EXPECT_TRUE(cut.back().cut && cut.back().markup.ends_with("…")) << cut.back().markup;
     for (const char* title :
-         {"旋转柔性梁与偏心凸轮之间多次碰撞的实验与数值研究", "sums $a + b + c$ of $\\frac{a}{b}$ and more"})
-        EXPECT_TRUE(fitted(title, 300).cut) << title;
-    EXPECT_EQ(fitted("$a + b + c + d + e + f$", 40).markup, "…");  // no part of a formula
+         {"旋转柔性梁与偏心凸轮之间多次碰撞的实验与数值研究", "sums $a + b + c$ of $\\frac{a}{b}$ and more and more"})
+        EXPECT_TRUE(fitted(title, 200).back().cut) << title;
+    EXPECT_EQ(fitted("$a + b + c + d + e + f$", 40).front().markup, "…");  // no part of a formula
 }
 
 }  // namespace

@@ -347,14 +347,13 @@ TEST(Films, NeedTheEventsThatTheyNameAndTheImpactsAroundWhichTheySlowDown) {
         EXPECT_TRUE(reading.scene) << reading.report();
         return needs_events(reading.scene->outputs[0], *reading.scene);
     };
-    EXPECT_FALSE(needs(R"("speed": 0.25)"));
+    EXPECT_FALSE(needs(R"("speed": 0.5)"));
     EXPECT_TRUE(needs(R"("speed": {"around": "impacts"})"));
     EXPECT_TRUE(needs(R"("poster": "impact:1")"));
-    // What shows collisions one by one, as very slow films do of themselves, has to know them.
-    EXPECT_TRUE(needs(R"("speed": 0.1)"));
+    // What shows collisions one by one, as slow films do of themselves, has to know them.
+    EXPECT_TRUE(needs(R"("speed": 0.3)"));
     EXPECT_TRUE(needs(R"("layout": {"panel": "contact_force", "window": "collision"})"));
-    // A close-up of one motion is not shown where several are compared.
-    EXPECT_FALSE(needs(R"("speed": 0.1, "compare": [{"label": "a"}, {"label": "b", "set": {"cam.speed": 2}}])"));
+    EXPECT_TRUE(needs(R"("speed": 0.3, "compare": [{"label": "a"}, {"label": "b", "set": {"cam.speed": 2}}])"));
 }
 
 TEST(Films, SlowDownAroundTheImpactsThatARunFinds) {
@@ -684,8 +683,8 @@ TEST(Films, ATitleThatDoesNotFitIsTold) {
         "size": [320, 180], "view": {"style": "flat"}}]})");
     const std::string run = "$BEAMCAM run s.json --force --set 'title=";
     const std::string words = "a beam of aluminium falls on a cam ";  // 35 letters
-    EXPECT_THAT(shell(folder, run + words + "'").err, ::testing::Not(HasSubstr("title")));
-    EXPECT_THAT(shell(folder, run + words + words + "'").err,
+    EXPECT_THAT(shell(folder, run + words + words + "'").err, ::testing::Not(HasSubstr("title")));
+    EXPECT_THAT(shell(folder, run + words + words + words + words + "'").err,
                 HasSubstr("warning: a.png shows only the beginning of the title: 320 × 180"));
 }
 
