@@ -56,8 +56,7 @@ void BodyPicture::draw(const MechanismScene& s) {
     if (Drawn now{s.shape, view}; !(drawn_ == now)) {
         const Ground ground = !s.view ? Ground::wall : at.over_floor ? Ground::floor : Ground::none;
         const double before = renderer_->read_back;
-        const Stage stage{box,     at.box.centre(),      ground,
-                          at.wide, at.marks * at.zoom(), std::clamp(2 - at.zoom(), 0.0, 1.0)};
+        const Stage stage{box, at.box.centre(), ground, at.wide, at.marks * at.zoom()};
         const BodyScene scene = scaled(body_scene(s.shape, at.palette, stage, view), fine, box);
         drawn_.reset();
         renderer_->draw(scene, image_);

@@ -263,7 +263,6 @@ BodyScene body_scene(const MechanismShape& shape, const Palette& palette, const 
     BodyScene scene{std::move(mesh.vertices), std::move(mesh.corners), bodies.shadows()};
     const double away = std::min(view.distance, kEye * std::max(stage.box.w, stage.box.h));
     scene.eye = {away * view.axes[2].x, away * view.axes[2].y, away * view.axes[2].z};
-    scene.fade *= stage.softness;
     scene.seen = DirtyTiles(static_cast<int>(stage.box.w), static_cast<int>(stage.box.h));
     const auto add = [&](const auto& a, const auto& b, const auto& c) {
         Bounds triangle;

@@ -31,9 +31,8 @@ struct Stage {
     Box box;      // of the picture [px]
     Vec2 middle;  // of the panel, which is the origin of the bodies [px]
     Ground ground = Ground::wall;
-    double wide = 0;      // width of the beam across the plane of motion [px]
-    double unit = 1;      // design pixel [px]
-    double softness = 1;  // of shadows: 0 at the edges of a near camera's panel, which cuts bodies, too
+    double wide = 0;  // width of the beam across the plane of motion [px]
+    double unit = 1;  // design pixel [px]
 };
 
 struct BodyScene {
