@@ -28,13 +28,21 @@ bool has_force(const Motion& motion) {
     return force && std::ranges::count_if(*force, [](double v) { return v > 0; }) > (is_impulsive(motion) ? 1 : 0);
 }
 
-// A deflection with more periods than a chart can show has a window of some of them.
+// A deflection with more periods than a chart can show, of a fifth of its range or more, has a window of some of them.
 std::optional<double> window_of(const sim::Table& chart, const std::vector<Channel>& channels) {
     constexpr int kMost = 30, kShown = 8;
     const auto *t = column(chart, {ChannelKind::t, 0}), *v = column(chart, {ChannelKind::tip_deflection, 0});
-    if (!t || !v || channels != std::vector<Channel>{{ChannelKind::tip_deflection, 0}}) return {};
+    if (!t || !v || v->empty() || channels != std::vector<Channel>{{ChannelKind::tip_deflection, 0}}) return {};
+    const auto [least, most] = std::ranges::minmax(*v);
+    const double step = 0.2 * (most - least);
     int periods = 0;
-    for (std::size_t i = 2; i < v->size(); ++i) periods += (*v)[i - 2] < (*v)[i - 1] && (*v)[i - 1] >= (*v)[i];
+    bool rises = true;
+    for (double turn = v->front(); const double now : *v) {  // the last extremum
+        turn = rises ? std::max(turn, now) : std::min(turn, now);
+        if (rises ? now >= turn - step : now <= turn + step) continue;
+        periods += rises;
+        rises = !rises, turn = now;
+    }
     return periods > kMost ? std::optional(kShown * (t->back() - t->front()) / periods) : std::nullopt;
 }
 
