@@ -63,7 +63,8 @@ std::vector<PanelSpec> standard(const FilmSetup& setup) {
         if (s.kind == PanelKind::close_up) return !setup.others.empty() || (still && !in_contact);
         const ChannelKind kind = s.channels.front().kind;
         return (kind == ChannelKind::tip_deflection && !column(setup.chart, s.channels.front())) ||
-               (kind == ChannelKind::contact_force && (!force || (s.by_collision && is_impulsive(*shown))));
+               (kind == ChannelKind::contact_force &&
+                (!force || (s.by_collision && setup.others.empty() && is_impulsive(setup))));
     });
     return specs;
 }

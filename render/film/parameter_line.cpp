@@ -7,8 +7,8 @@
 namespace beamcam::render {
 namespace {
 
-constexpr double kSmallParameters = 0.85;    // of the usual size
-constexpr double kBetweenParameters = 0.75;  // gap between parameters, in sizes of their letters
+constexpr double kSmallTitle = 0.7, kSmallParameters = 0.85;  // of the usual sizes
+constexpr double kBetweenParameters = 0.75;                   // gap between parameters, in sizes of their letters
 
 // With ordinary spaces, for a terminal.
 std::string plain(const std::string& markup) {
@@ -26,21 +26,19 @@ TextStyle title_style(const Letters& letters, Color color) {
 
 std::vector<FittedText> fitted_title(const Canvas& canvas, const std::string& title, const Box& box,
                                      const Letters& letters) {
-    const auto fitted = [&](const std::string& text, TextStyle style) {
-        return fitted_text(canvas, text, style, letters.heading, box.w);
-    };
     TextStyle style = title_style(letters);
-    const FittedText whole = fitted(title, style);
+    const FittedText whole = fitted_text(canvas, title, style, kSmallTitle * letters.title, box.w);
     if (!whole.cut) return {whole};
     style.size = letters.heading;
+    const auto fitted = [&](const std::string& text) { return fitted_text(canvas, text, style, style.size, box.w); };
     std::size_t end = 0;  // of the first line
     bool formula = false;
     for (std::size_t i = 1; i < title.size(); ++i) {
         formula = formula != (title[i - 1] == '$');
-        if (title[i] == ' ' && !formula && !fitted(title.substr(0, i), style).cut) end = i;
+        if (title[i] == ' ' && !formula && !fitted(title.substr(0, i)).cut) end = i;
     }
     if (end == 0) return {whole};
-    return {fitted(title.substr(0, end), style), fitted(title.substr(end + 1), style)};
+    return {fitted(title.substr(0, end)), fitted(title.substr(end + 1))};
 }
 
 ParameterLine parameter_line(const Canvas& canvas, const Layout& places, const std::vector<std::string>& pieces) {

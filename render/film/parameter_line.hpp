@@ -29,7 +29,7 @@ ParameterLine parameter_line(const Canvas& canvas, const Layout& places, const s
 
 // Style of the title at full size.
 TextStyle title_style(const Letters& letters, Color color = {});
-// In the size of titles, else in that of headings on one line or two, of which the first ends between words.
+// On one line in two sizes, else on two in that of headings, of which the first ends between words.
 std::vector<FittedText> fitted_title(const Canvas& canvas, const std::string& title, const Box& box,
                                      const Letters& letters);
 

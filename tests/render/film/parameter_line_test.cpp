@@ -100,7 +100,7 @@ TEST(ParameterLine, ATitleHasTwoSizesThenTwoLinesThenAnEllipsis) {
     ASSERT_EQ(two.size(), 2u);
     EXPECT_EQ(two[0].markup, "A beam");
     EXPECT_EQ(two[1].markup, "falls");
-    EXPECT_EQ(two[1].size, smaller.front().size);
+    EXPECT_LT(two[1].size, smaller.front().size);
     EXPECT_TRUE(cut.back().cut && cut.back().markup.ends_with("…")) << cut.back().markup;
     for (const char* title :
          {"旋转柔性梁与偏心凸轮之间多次碰撞的实验与数值研究", "sums $a + b + c$ of $\\frac{a}{b}$ and more and more"})

@@ -231,6 +231,25 @@ TEST(Strips, RoundingOfALengthIsZero) {
     EXPECT_NE(picture(1e-12), picture(0));
 }
 
+TEST(Strips, ManyPeriodsOfADeflectionAreShownInAWindow) {
+    const auto window = [](double frequency) -> std::optional<double> {
+        FilmSetup setup = test::flat_film({.duration = 1}, 960, 540);
+        setup.problem.cam.reset(), setup.layout.reset(), setup.trace = {}, setup.impacts.clear();
+        for (sim::Pose& pose : setup.poses) pose.nearest.reset();
+        setup.chart.channels.push_back({ChannelKind::tip_deflection, 0});
+        std::vector<double>& v = setup.chart.values.emplace_back();
+        for (const double t : setup.chart.values[0]) v.push_back(std::sin(6.2832 * frequency * t));
+        for (const PanelSlot& slot : Film(std::move(setup)).geometry(0).layout.panels)
+            if (slot.spec == strip(ChannelKind::theta))
+                EXPECT_FALSE(slot.spec.window);
+            else if (slot.spec.kind == PanelKind::strip)
+                return slot.spec.window;
+        return -1;
+    };
+    EXPECT_EQ(window(20), std::nullopt);
+    EXPECT_NEAR(window(50).value_or(0), 8 / 50.0, 0.01);
+}
+
 // Numbers with many decimals stand apart.
 TEST(Strips, NumbersOfAShortWindowStandApart) {
     FilmSetup setup = test::flat_film({.duration = 1}, 1280, 720);
