@@ -4,11 +4,11 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
-#include <optional>
+#include <memory>
+#include <new>
 #include <set>
 
 #include "output/data/table_reader.hpp"
-#include "output/files/inflate.hpp"
 #include "output/files/numbers.hpp"
 #include "output/json/source.hpp"
 
@@ -21,8 +21,9 @@ static_assert(std::endian::native == std::endian::little, "NPZ is read in memory
 
 using Wanted = std::function<bool(const std::string&)>;
 
-constexpr std::size_t kLargestMember = 0xffffffff;          // [bytes]: the limit of the format
+constexpr std::size_t kLargestMember = 0xffffffff;           // [bytes]: the limit of the format
 constexpr std::size_t kMostExpanded = std::size_t{1} << 28;  // [bytes] of all compressed arrays that are wanted
+constexpr std::size_t kLargestRatio = 1100;                  // deflate compresses at most 1032 bytes into one
 
 template <typename Number>
 std::vector<double> numbers(std::string_view data) {
@@ -50,7 +51,7 @@ constexpr Element kElements[] = {{"<f8", 8, numbers<double>},        {"<f4", 4, 
 class NpzParser {
   public:
     NpzParser(std::string_view bytes, const std::string& file, const Wanted& wanted)
-        : bytes_(bytes), file_(file), wanted_(wanted), inflater_(kMostExpanded), unread_(bytes.size()) {}
+        : bytes_(bytes), file_(file), wanted_(wanted), unread_(bytes.size()) {}
 
     ColumnTable parse() {
         const std::size_t end = find_end();
@@ -106,16 +107,28 @@ class NpzParser {
         unread_ -= packed.size();
         if (method != 0 && method != 8)
             refuse("the array " + in_quotes(column.name) + " has a compression method that numpy does not use");
-        std::optional<std::string> expanded;
-        if (method == 8 && size > kMostExpanded - expanded_)
-            refuse("the arrays expand to more than " + std::to_string(kMostExpanded >> 20) +
-                   " MiB; write them without compression, by numpy.savez");
-        if (method == 8 && !(expanded = inflater_.deflate(packed, size))) damaged();
-        if (expanded) expanded_ += size;
-        const std::string_view data = expanded ? *expanded : packed;
+        const std::string plain = method == 8 ? expanded(packed, size) : std::string();
+        const std::string_view data = method == 8 ? plain : packed;
         if (data.size() != size || libdeflate_crc32(0, data.data(), data.size()) != crc) damaged();
         if (const std::string wrong = values_of(data, column.values); !wrong.empty())
             column.problem = "cannot read " + file_ + ": the array " + in_quotes(column.name) + " " + wrong;
+    }
+
+    // An array of this size. A few bytes may claim to expand to gigabytes.
+    std::string expanded(std::string_view packed, std::size_t size) {
+        if (size > kMostExpanded - expanded_)
+            refuse("the arrays expand to more than " + std::to_string(kMostExpanded >> 20) +
+                   " MiB; write them without compression, by numpy.savez");
+        if (size / kLargestRatio > packed.size()) damaged();
+        const std::unique_ptr<libdeflate_decompressor, void (*)(libdeflate_decompressor*)> decompressor(
+            libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
+        if (!decompressor) throw std::bad_alloc();
+        std::string plain(size, '\0');
+        if (libdeflate_deflate_decompress(decompressor.get(), packed.data(), packed.size(), plain.data(), size,
+                                          nullptr) != LIBDEFLATE_SUCCESS)
+            damaged();
+        expanded_ += size;
+        return plain;
     }
 
     // Reads numpy's format. Returns what is wrong, or nothing.
@@ -153,7 +166,6 @@ class NpzParser {
     std::string_view bytes_;
     const std::string& file_;
     const Wanted& wanted_;
-    Inflater inflater_;
     std::size_t unread_;        // bytes of the file that belong to no array yet
     std::size_t expanded_ = 0;  // [bytes]
     ColumnTable table_;

@@ -1,6 +1,7 @@
 #include "output/data/point_store.hpp"
 
 #include <fcntl.h>
+#include <libdeflate.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 #include <cstring>
 #include <system_error>
 
-#include "output/files/digest.hpp"
 #include "output/files/numbers.hpp"
 
 namespace beamcam::output {
@@ -50,7 +50,7 @@ std::string text_of(const StoredPoint& p) {
                   p.period, p.impacts_per_period, p.exponent,     p.exponent_error, 0};
     std::string text(reinterpret_cast<const char*>(&header), sizeof header);
     text.append(bytes_of(p.samples)).append(bytes_of(p.state)).append(p.failure);
-    header.checksum = crc32(0, text.data(), text.size());
+    header.checksum = libdeflate_crc32(0, text.data(), text.size());
     std::memcpy(text.data(), &header, sizeof header);
     return text;
 }
@@ -95,7 +95,7 @@ void PointFile::index_points(const PointShape& shape) {
         Header zeroed = found;
         zeroed.checksum = 0;
         std::memcpy(text.data(), &zeroed, sizeof zeroed);
-        if (crc32(0, text.data(), text.size()) != found.checksum) return;
+        if (libdeflate_crc32(0, text.data(), text.size()) != found.checksum) return;
         place(found.point, found.samples, text.size());
     }
 }

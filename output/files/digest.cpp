@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <libdeflate.h>
 #include <openssl/crypto.h>
 #include <openssl/evp.h>
 
@@ -56,10 +55,6 @@ std::string sha256_of_file(const std::filesystem::path& file) {
     Sha256 hash;
     read_pieces(file, [&hash](std::string_view piece) { hash.update(piece); });
     return hash.hex();
-}
-
-std::uint32_t crc32(std::uint32_t so_far, const void* data, std::size_t size) {
-    return libdeflate_crc32(so_far, data, size);
 }
 
 }  // namespace beamcam::output

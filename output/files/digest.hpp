@@ -1,9 +1,7 @@
-// Digests: SHA-256 as FIPS 180-4 defines it, by OpenSSL's libcrypto, identifies the content of pictures and files;
-// CRC-32 (ISO-HDLC, as in zlib) detects accidental damage.
+// Digests: SHA-256 as FIPS 180-4 defines it, by OpenSSL's libcrypto, identifies the content of pictures and files.
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -28,8 +26,5 @@ class Sha256 {
 
 std::string sha256(std::string_view bytes);
 std::string sha256_of_file(const std::filesystem::path& file);  // throws IoError
-
-// Continues from `so_far`, which is 0 at the start.
-std::uint32_t crc32(std::uint32_t so_far, const void* data, std::size_t size);
 
 }  // namespace beamcam::output

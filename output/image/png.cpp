@@ -8,13 +8,14 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <memory>
+#include <new>
 #include <span>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "output/files/descriptor.hpp"
-#include "output/files/inflate.hpp"
 #include "output/image/raster.hpp"
 
 namespace beamcam::output {
@@ -99,6 +100,16 @@ std::vector<std::uint8_t> filtered_rows(const render::Image& image, bool opaque)
     return rows;
 }
 
+std::string zlib_compressed(std::string_view bytes) {
+    const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(
+        libdeflate_alloc_compressor(kCompressionLevel), libdeflate_free_compressor);
+    if (!compressor) throw std::bad_alloc();
+    // Uninitialized: most of it is never used, and the system provides only memory that is used.
+    const std::size_t most = libdeflate_zlib_compress_bound(compressor.get(), bytes.size());
+    const auto room = std::make_unique_for_overwrite<char[]>(most);
+    return {room.get(), libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(), room.get(), most)};
+}
+
 }  // namespace
 
 std::string encode_png(const render::Image& image, const PngOptions& options) {
@@ -109,7 +120,7 @@ std::string encode_png(const render::Image& image, const PngOptions& options) {
     put_chunk(file, "sRGB", std::string_view("\0", 1));  // rendering intent: perceptual
     if (options.dpi) put_chunk(file, "pHYs", pixels_per_metre(*options.dpi));
     for (const auto& [keyword, text] : options.metadata) put_chunk(file, "iTXt", international_text(keyword, text));
-    put_chunk(file, "IDAT", zlib_compressed(bytes_of(filtered_rows(image, opaque)), kCompressionLevel));
+    put_chunk(file, "IDAT", zlib_compressed(bytes_of(filtered_rows(image, opaque))));
     put_chunk(file, "IEND", {});
     return file;
 }

@@ -5,7 +5,6 @@
 #include <fstream>
 
 #include "output/files/atomic_file.hpp"
-#include "output/files/inflate.hpp"
 #include "output/film/video.hpp"
 #include "output/film/video_library.hpp"
 #include "output/image/png.hpp"
@@ -156,18 +155,6 @@ TEST(FilmInfo, ReadsNoOtherFile) {
         write_file(scratch / "script.mkv", script);
         EXPECT_NE(io_error_of([&] { video_library().info(scratch / "script.mkv"); }), "");
     }
-}
-
-TEST(Inflater, GivesOutNoMoreThanItsBudget) {
-    std::string packed(200, '\0');
-    const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> deflate(
-        libdeflate_alloc_compressor(6), libdeflate_free_compressor);
-    const std::string zeros(60000, '\0');
-    packed.resize(libdeflate_deflate_compress(deflate.get(), zeros.data(), zeros.size(), packed.data(), packed.size()));
-    Inflater inflater(100000);
-    EXPECT_EQ(inflater.deflate(packed, zeros.size()), zeros);
-    EXPECT_EQ(inflater.deflate(packed, zeros.size()), std::nullopt);
-    EXPECT_EQ(Inflater(100000).deflate(packed, 99999999), std::nullopt);
 }
 
 }  // namespace
