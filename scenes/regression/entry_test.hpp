@@ -10,7 +10,6 @@
 #include "output/data/file_list.hpp"
 #include "scenes/motions/motion_pool.hpp"
 #include "scenes/plan/plan.hpp"
-#include "scenes/regression/entry_motion.hpp"
 #include "scenes/regression/entry_pictures.hpp"
 #include "scenes/regression/regression.hpp"
 #include "scenes/scene/exit_code.hpp"

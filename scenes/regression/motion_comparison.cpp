@@ -1,5 +1,4 @@
-#include "scenes/regression/motion_comparison.hpp"
-
+// The comparison of a motion with its record.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +8,7 @@
 #include <map>
 
 #include "output/data/table_difference.hpp"
-#include "scenes/regression/comparison.hpp"
+#include "scenes/regression/records.hpp"
 #include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {

@@ -1,5 +1,4 @@
-#include "scenes/regression/motion_record.hpp"
-
+// The record of a motion, and its files.
 #include <fmt/format.h>
 
 #include <sstream>
@@ -7,6 +6,7 @@
 #include "output/data/records.hpp"
 #include "output/data/table_reader.hpp"
 #include "output/files/atomic_file.hpp"
+#include "scenes/regression/records.hpp"
 
 namespace beamcam::scenes {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "output/files/atomic_file.hpp"
-#include "scenes/regression/entry_context.hpp"
+#include "scenes/regression/entry_pictures.hpp"
 #include "scenes/regression/report.hpp"
 #include "sim/base/counted.hpp"
 

@@ -1,18 +1,95 @@
-#include "scenes/regression/sweep_record.hpp"
-
+// The comparison of a sweep with its record, point by point.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <span>
 
-#include "scenes/regression/sweep_table.hpp"
+#include "scenes/regression/records.hpp"
 #include "sim/base/counted.hpp"
+#include "sim/sweep/attractor.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
 using sim::AttractorClass;
+
+// ---- the points of a table and their samples ---------------------------------------------------
+
+using SweepColumn = std::span<const double>;
+
+bool same_number(double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); }
+
+// The rows of a point's samples; a point without samples has one row, too.
+struct PointRows {
+    std::size_t begin = 0, end = 0;
+    std::size_t size() const { return end - begin; }
+};
+
+class SweepTable {
+  public:
+    // Throws IoError if the table is not that of a sweep. The table must outlive it.
+    explicit SweepTable(const output::ColumnTable& table);
+
+    const std::vector<PointRows>& points() const { return points_; }
+    // Columns of the samples, without those that grow with time.
+    const std::vector<std::string>& values() const { return values_; }
+    SweepColumn all(std::size_t value) const { return columns_[value]; }
+    SweepColumn samples(const PointRows& point, std::size_t value) const {
+        return columns_[value].subspan(point.begin, point.size());
+    }
+    sim::AttractorClass kind(const PointRows& point) const {
+        return static_cast<sim::AttractorClass>(int(kinds_[point.begin]));
+    }
+    double at(const PointRows& point, const std::string& name) const { return column(name)[point.begin]; }
+    std::string place(const PointRows& point) const;  // "cam.speed = 40, seed 0"
+    bool same_rows(const PointRows& own, const SweepTable& other, const PointRows& its) const;
+
+  private:
+    const std::vector<double>& column(const std::string& name) const;
+
+    const output::ColumnTable& table_;
+    const SweepColumn kinds_;
+    std::vector<PointRows> points_;
+    std::vector<std::string> axes_, values_;
+    std::vector<SweepColumn> columns_;  // of the values
+};
+
+SweepTable::SweepTable(const output::ColumnTable& table) : table_(table), kinds_(column("class")) {
+    const std::vector<double>& sample = column("sample");
+    for (std::size_t row = 0; row < sample.size(); ++row) {
+        if (points_.empty() || !(sample[row] > 0)) points_.push_back({row, row});
+        points_.back().end = row + (std::isnan(sample[row]) ? 0 : 1);
+        if (!(kinds_[row] >= 0 && kinds_[row] < double(sim::names(sim::AttractorClass()).size())))
+            throw output::IoError(fmt::format("the record of the sweep is damaged: there is no class {}", kinds_[row]));
+    }
+    const std::vector<std::string> names = table.names();
+    axes_.assign(names.begin(), std::ranges::find(names, "seed"));
+    for (auto name = std::ranges::find(names, "sample") + 1; name != names.end(); ++name)
+        if (*name != "t" && *name != "cam_angle") values_.push_back(*name), columns_.emplace_back(column(*name));
+}
+
+std::string SweepTable::place(const PointRows& point) const {
+    std::string text;
+    for (const std::string& axis : axes_) text += fmt::format("{} = {:.9g}, ", axis, at(point, axis));
+    return text + fmt::format("seed {:g}", at(point, "seed"));
+}
+
+bool SweepTable::same_rows(const PointRows& own, const SweepTable& other, const PointRows& its) const {
+    if (own.size() != its.size()) return false;
+    return std::ranges::all_of(table_.columns, [&](const output::TableColumn& each) {
+        const std::size_t rows = std::max<std::size_t>(own.size(), 1);
+        return std::ranges::equal(SweepColumn(each.values).subspan(own.begin, rows),
+                                  SweepColumn(other.column(each.name)).subspan(its.begin, rows), same_number);
+    });
+}
+
+const std::vector<double>& SweepTable::column(const std::string& name) const {
+    if (const std::vector<double>* found = table_.find(name)) return *found;
+    throw output::IoError(fmt::format("the record of the sweep is damaged: it has no column {}", name));
+}
+
+// ---- comparison ----------------------------------------------------------------------------------
 
 constexpr std::size_t kMostOfOrbit = 500;  // compared samples of a periodic motion: its whole orbit
 constexpr std::size_t kMostDifferences = 4;

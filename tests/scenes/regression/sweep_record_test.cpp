@@ -1,5 +1,5 @@
 // Sweeps as entries of baselines: classes, periods and the samples of orbits.
-#include "scenes/regression/sweep_record.hpp"
+#include "scenes/regression/records.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
