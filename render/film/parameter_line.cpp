@@ -1,22 +1,12 @@
 #include "render/film/parameter_line.hpp"
 
 #include <algorithm>
-#include <iterator>
-#include <string_view>
 
 namespace beamcam::render {
 namespace {
 
 constexpr double kSmallTitle = 0.7, kSmallParameters = 0.85;  // of the usual sizes
 constexpr double kBetweenParameters = 0.75;                   // gap between parameters, in sizes of their letters
-
-// With ordinary spaces, for a terminal.
-std::string plain(const std::string& markup) {
-    std::string text = to_plain(markup);
-    for (const std::string_view space : {"\u2009", "\u00A0"})
-        for (std::size_t at = 0; (at = text.find(space, at)) != std::string::npos;) text.replace(at, space.size(), " ");
-    return text;
-}
 
 }  // namespace
 
@@ -56,34 +46,6 @@ ParameterLine parameter_line(const Canvas& canvas, const Layout& places, const s
         }
         if (out.pieces.size() == pieces.size()) break;
     }
-    out.omitted.assign(pieces.begin() + std::ssize(out.pieces), pieces.end());
-    return out;
-}
-
-std::vector<std::string> omitted_text(int width, int height, const std::optional<LayoutNode>& grid,
-                                      const std::string& title, const std::vector<const sim::Problem*>& problems,
-                                      const Shown& asked, SpeedUnit unit) {
-    Shown shown = asked;
-    shown.title = shown.title && !title.empty();
-    const Layout places = layout(width, height, grid.value_or(LayoutNode{}), shown);
-    std::vector<std::string> out;
-    std::vector<std::string> missing;
-    if (shown.parameters) missing = common_pieces(problems, unit);
-    const bool titled = places.title && !title.empty();
-    if (shown.title && !titled) out.emplace_back("the title");
-    if (places.parameters || titled) {
-        const Fonts fonts(needs_cjk(title));
-        Image scratch(1, 1);
-        const Canvas canvas(scratch, fonts);
-        if (titled && fitted_title(canvas, title, *places.title, places.letters).back().cut)
-            out.emplace_back("the end of the title");
-        missing = parameter_line(canvas, places, missing).omitted;
-    }
-    for (const std::string& piece : missing) out.push_back(plain(piece));
-    const bool colored = std::ranges::any_of(
-        problems, [](const sim::Problem* p) { return p->cam.has_value() || p->beam.model != sim::ModelKind::rigid; });
-    if (shown.legend && !places.scales && colored && places.first(PanelKind::mechanism))
-        out.emplace_back("colour scales");
     return out;
 }
 

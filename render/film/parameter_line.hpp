@@ -1,6 +1,5 @@
 // The title, and the line of parameters below it: whole items, the most important first. Letters have two sizes; where
-// the smaller one has no room, a title ends with an ellipsis, and the last parameters are left out. What is left out is
-// known before anything is drawn.
+// the smaller one has no room, a title ends with an ellipsis, and the last parameters are left out.
 #pragma once
 
 #include <string>
@@ -21,7 +20,6 @@ struct ParameterLine {
     };
     double size = 0;  // size of the letters [px]
     std::vector<Piece> pieces;
-    std::vector<std::string> omitted;  // markup
 };
 
 // `canvas` is only used for measuring.
@@ -32,12 +30,5 @@ TextStyle title_style(const Letters& letters, Color color = {});
 // On one line in two sizes, else on two in that of headings, of which the first ends between words.
 std::vector<FittedText> fitted_title(const Canvas& canvas, const std::string& title, const Box& box,
                                      const Letters& letters);
-
-// The texts for which a picture of this size, with this layout or the standard one, has no space: "the title" or "the
-// end of the title", parameters, "colour scales". Loads fonts, unless there is no space for title and parameters.
-// Throws FontError.
-std::vector<std::string> omitted_text(int width, int height, const std::optional<LayoutNode>& layout,
-                                      const std::string& title, const std::vector<const sim::Problem*>& problems,
-                                      const Shown& shown = {}, SpeedUnit unit = {});
 
 }  // namespace beamcam::render

@@ -288,10 +288,6 @@ void SceneRun::warn_of_omissions(const PlannedPictures& p) const {
                        fmt::join(p.times.unreached_events, " or "));
     if (const std::string lost = characters_without_font(p, scene_); !lost.empty())
         context_.print("warning: {}\n", lost);
-    if (p.kind == PlannedPictures::Kind::page) return;
-    if (!context_.options.verbose || context_.options.quiet) return;
-    if (const std::string what = omitted_text(p, scene_); !what.empty())
-        context_.print("warning: {} shows no {}: {}\n", p.file, what, why_text_is_omitted(p.size));
 }
 
 void SceneRun::write_partial_data() {

@@ -1,12 +1,10 @@
 #include "scenes/plan/plan.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
 #include "render/base/error.hpp"
-#include "render/film/parameter_line.hpp"
 #include "render/plot/user_text.hpp"
 
 namespace beamcam::scenes {
@@ -22,15 +20,6 @@ std::string why_panels_are_omitted(const Size& size) {
 
 std::string why_text_is_omitted(const Size& size) {
     return fmt::format("{} × {} is too small for them; increase \"size\"", size.width, size.height);
-}
-
-std::string omitted_text(const PlannedPictures& p, const Scene& scene) {
-    std::vector<const sim::Problem*> problems;
-    for (const Compared& each : p.compare) problems.push_back(&each.problem);
-    if (problems.empty()) problems.push_back(&scene.problem);
-    return fmt::format("{}", fmt::join(render::omitted_text(p.size.width, p.size.height, p.layout, scene.title,
-                                                            problems, p.view.show, scene.units.speed),
-                                       "; "));
 }
 
 std::string characters_without_font(const PictureOutput& p, const Scene& scene) {

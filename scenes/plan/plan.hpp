@@ -85,10 +85,7 @@ double run_end(const Scene& scene);
 // The reason for PlannedPictures::omitted_panels.
 std::string why_panels_are_omitted(const Size& size);
 
-// Parameters and colour scales that do not fit into the picture: "R = 100 mm; colour scales"; empty if all fit. Loads
-// fonts. Throws render::FontError.
-std::string omitted_text(const PlannedPictures& p, const Scene& scene);
-// The reason for omitted_text.
+// The reason for texts that a picture cuts or omits.
 std::string why_text_is_omitted(const Size& size);
 // "fall.mp4 omits 🙂: no font has these characters", of title, captions (also those outside the film)
 // and names; empty if there are none.
