@@ -62,9 +62,14 @@ void report_times_and_work(const RunContext& context) {
         "encoding {:.2f} s, other files {:.2f} s\n",
         seconds_since(context.started), times.simulate, times.draw, counted(times.threads, "thread"), times.read_back,
         times.convert, times.encode, times.write);
-    std::string text;
-    for_each_count(context.work, [&](const char* what, long count) { text += fmt::format(" {}={}", what, count); });
-    output::print_message("work:{}\n", text);
+    const Work& w = context.work;
+    output::print_message(
+        "work: integrations={} steps={} rhs_evaluations={} gap_evaluations={} sweep_points={} font_sets={}"
+        " gl_contexts={} encoder_modules={} encoders={} frames_drawn={} figures_drawn={} bodies_drawn={}"
+        " frames_repeated={} frames_encoded={} frames_left={} files_written={} files_left={} bytes_written={}\n",
+        w.integrations, w.steps, w.rhs_evaluations, w.gap_evaluations, w.sweep_points, w.font_sets, w.gl_contexts,
+        w.encoder_modules, w.encoders, w.frames_drawn, w.figures_drawn, w.bodies_drawn, w.frames_repeated,
+        w.frames_encoded, w.frames_left, w.files_written, w.files_left, w.bytes_written);
 }
 
 }  // namespace

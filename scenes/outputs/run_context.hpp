@@ -8,7 +8,6 @@
 #include "output/files/standard_output.hpp"
 #include "scenes/motions/motion_pool.hpp"
 #include "scenes/outputs/run.hpp"
-#include "scenes/outputs/work.hpp"
 #include "sim/base/clock.hpp"
 #include "sim/base/counted.hpp"
 
@@ -18,6 +17,21 @@ namespace beamcam::scenes {
 struct Times {
     double simulate = 0, draw = 0, read_back = 0, convert = 0, encode = 0, write = 0;
     int threads = 0;  // for drawing
+};
+
+// Counts of the work, by which tests prove that nothing unnecessary is done.
+struct Work {
+    long integrations = 0;  // of equations of motion, except for sweeps; a horizon takes two
+    long steps = 0, rhs_evaluations = 0, gap_evaluations = 0;
+    long sweep_points = 0;                                                   // computed
+    long font_sets = 0, gl_contexts = 0, encoder_modules = 0, encoders = 0;  // loaded or opened
+    long frames_drawn = 0, figures_drawn = 0;
+    long bodies_drawn = 0;     // drawn by OpenGL; a frame whose mechanism is unchanged reuses the last one
+    long frames_repeated = 0;  // of films: equal to the previous frame, neither drawn nor converted
+    long frames_encoded = 0;
+    long frames_left = 0;  // of sequences: up to date
+    long files_written = 0, files_left = 0;
+    long bytes_written = 0;
 };
 
 struct RunContext {
