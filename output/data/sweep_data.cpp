@@ -60,7 +60,7 @@ void each_column(const SweepData& data, const StoredPoint& p, Visit&& visit) {
     }
 }
 
-void csv(const SweepData& data, const std::function<void(const std::string&)>& write) {
+void csv(const SweepData& data, const TextSink& write) {
     const std::size_t class_column = data.axes.size() + 1;  // a name in CSV, after the seed
     std::string text = fmt::format("{}\n", fmt::join(column_names(data), ","));
     each_point(data, [&](const StoredPoint& p) {
@@ -85,7 +85,7 @@ void csv(const SweepData& data, const std::function<void(const std::string&)>& w
 
 // The points follow in the order of their numbers, so that the bytes do not depend on the order in which the points
 // were made.
-void points(const SweepData& data, const std::function<void(const std::string&)>& write) {
+void points(const SweepData& data, const TextSink& write) {
     write(text_of(data.head));
     each_point(data, [&](const StoredPoint& p) { write(text_of(p)); });
 }
@@ -103,7 +103,7 @@ void npz(const FileTarget& file, const SweepData& data) {
 
 }  // namespace
 
-void write_sweep_csv(std::ostream& out, const SweepData& data) { csv(data, to_stream(out)); }
+void write_sweep_csv(const TextSink& write, const SweepData& data) { csv(data, write); }
 
 ColumnTable table_of(const SweepData& data) {
     ColumnTable table;

@@ -1,8 +1,6 @@
 #include "output/data/tables.hpp"
 
 #include <algorithm>
-#include <functional>
-#include <iostream>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,7 +8,6 @@
 #include "output/data/npz.hpp"
 #include "output/files/atomic_file.hpp"
 #include "output/files/numbers.hpp"
-#include "output/files/standard_output.hpp"
 
 namespace beamcam::output {
 
@@ -36,7 +33,7 @@ Columns columns_of(const ColumnTable& table) {
     return columns;
 }
 
-void csv(const Columns& table, const std::function<void(const std::string&)>& write) {
+void csv(const Columns& table, const TextSink& write) {
     std::string text;
     for (std::size_t c = 0; c < table.names.size(); ++c) {
         if (c > 0) text += ',';
@@ -106,15 +103,7 @@ std::vector<std::string> ColumnTable::names() const {
     return all;
 }
 
-std::function<void(const std::string&)> to_stream(std::ostream& out) {
-    return [&out](const std::string& text) {
-        if (out.write(text.data(), static_cast<std::streamsize>(text.size())).flush()) return;
-        if (&out == &std::cout) flush_data();  // its reader may have ended, which is no error
-        throw IoError("cannot write the table: the output was closed or the disk is full");
-    };
-}
-
-void write_csv(std::ostream& out, const sim::Table& table) { csv(columns_of(table), to_stream(out)); }
+void write_csv(const TextSink& write, const sim::Table& table) { csv(columns_of(table), write); }
 
 void write_table(const FileTarget& file, const sim::Table& table) { write_columns(file, columns_of(table)); }
 

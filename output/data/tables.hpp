@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <ostream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -36,10 +35,10 @@ struct ColumnTable {
 
 // ---- writing -------------------------------------------------------------------------------------
 
-// One header line, commas, 17 significant digits, "\n"; an undefined value is an empty cell. Throws IoError.
-void write_csv(std::ostream& out, const sim::Table& table);
-// Passes pieces of CSV text on to a stream. Throws IoError if it fails.
-std::function<void(const std::string&)> to_stream(std::ostream& out);
+// Receives the pieces of a text, such as print_data.
+using TextSink = std::function<void(const std::string&)>;
+// One header line, commas, 17 significant digits, "\n"; an undefined value is an empty cell.
+void write_csv(const TextSink& write, const sim::Table& table);
 
 // The ending decides: .csv or .npz; numpy.load(file)["theta"] gives one array of float64 per channel, NaN where
 // undefined. Throws UnsupportedOption for other endings, and for .npz above 4 GiB; IoError.

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <iostream>
 #include <new>
 #include <string>
 
@@ -37,10 +36,6 @@ void write_message(std::string_view text) noexcept try {
     [[maybe_unused]] const std::size_t written = std::fwrite(shown.data(), 1, shown.size(), stderr);
 } catch (const std::bad_alloc&) {
     std::fputs("beamcam: no memory for a message\n", stderr);
-}
-
-void flush_data() {
-    if (!std::cout.flush()) fail();
 }
 
 }  // namespace beamcam::output

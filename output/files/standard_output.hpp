@@ -14,9 +14,6 @@ void print_data(std::string_view text);  // for programs, byte by byte
 void print_text(std::string_view text);  // for people: see `visible` in text_safety.hpp
 void print_json(std::string_view text);  // for programs and people: see `escaped_json`
 
-// Flushes std::cout; errors are those of print_data.
-void flush_data();
-
 // Prints a message for people. A full disk or a closed pipe does not end the program.
 void write_message(std::string_view text) noexcept;
 template <typename... Values>

@@ -4,8 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <iostream>
 #include <span>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -68,8 +68,9 @@ int parse_and_run(int argc, const char* const* argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) {  // --help, --version
-        app.exit(success, std::cout, std::cerr);
-        output::flush_data();
+        std::ostringstream text;
+        app.exit(success, text);
+        print_data(text.str());
         return kDone;
     } catch (const CLI::ParseError& error) {
         std::string name, what = error.what();

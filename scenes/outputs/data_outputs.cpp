@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iostream>
 #include <stdexcept>
 
 #include "output/data/records.hpp"
@@ -48,12 +47,7 @@ void TrajectoryOutput::visit(SceneVisitor& v) {
 namespace {
 
 std::string write_table(const DataSource& from, const sim::Table& table) {
-    if (from.file) {
-        output::write_table(*from.file, table);
-    } else {
-        output::write_csv(std::cout, table);
-        output::flush_data();
-    }
+    from.file ? output::write_table(*from.file, table) : output::write_csv(output::print_data, table);
     return counted(table.rows(), "row");
 }
 
@@ -193,12 +187,7 @@ void plan(Planner& planner, const SweepOutput& sweep, const ResolvedOutput& reso
 }
 
 static std::string write(const SweepOutput&, const DataFile&, const DataSource& from) {
-    if (from.file) {
-        output::write_sweep(*from.file, *from.sweep);
-    } else {
-        output::write_sweep_csv(std::cout, *from.sweep);
-        output::flush_data();
-    }
+    from.file ? output::write_sweep(*from.file, *from.sweep) : output::write_sweep_csv(output::print_data, *from.sweep);
     return counted(from.sweep->rows_in_all(), "row");
 }
 

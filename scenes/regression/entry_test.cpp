@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "output/data/table_reader.hpp"
 #include "output/files/errors.hpp"
@@ -81,9 +80,9 @@ void judge_sweep(EntryContext& test, int threads, Progress& progress) {
     });
     if (!test.references.is_updated() || verdict == Verdict::identical) return;
     require_settled(test, sweep);
-    std::ostringstream csv;
-    output::write_sweep_csv(csv, sweep.data());
-    test.update.put(kSweepRecord, csv.str());
+    std::string csv;
+    output::write_sweep_csv([&csv](const std::string& text) { csv += text; }, sweep.data());
+    test.update.put(kSweepRecord, csv);
 }
 
 }  // namespace

@@ -1,8 +1,6 @@
 // The record of a motion, and its files.
 #include <fmt/format.h>
 
-#include <sstream>
-
 #include "output/data/records.hpp"
 #include "output/data/table_reader.hpp"
 #include "output/files/atomic_file.hpp"
@@ -50,9 +48,9 @@ RecordNames::RecordNames(std::size_t motion)
 
 void put_record(ReferenceUpdate& update, const RecordNames& names, const sim::Table& table,
                 const std::vector<sim::Impact>& impacts, double until, std::optional<double> reproducible_until) {
-    std::ostringstream csv;
-    output::write_csv(csv, table);
-    update.put(names.table, csv.str());
+    std::string csv;
+    output::write_csv([&csv](const std::string& text) { csv += text; }, table);
+    update.put(names.table, csv);
     update.put(names.impacts, to_text(object_node({{"reproducible_until", reproducible_until.value_or(until)},
                                                    {"impacts", impacts_node(impacts, until)}})));
 }

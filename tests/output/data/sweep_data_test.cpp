@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
-#include <sstream>
 
 #include "output/data/table_reader.hpp"
 #include "output/files/atomic_file.hpp"
@@ -39,12 +38,12 @@ SweepData grid(std::uint64_t missing = 1000) {
 }
 
 TEST(SweepData, IsACsvWithARowASample) {
-    std::ostringstream out;
+    std::string out;
     SweepData data = grid();
     data.axes.pop_back();
     data.seeds = 1;
-    write_sweep_csv(out, data);
-    EXPECT_EQ(out.str(),
+    write_sweep_csv([&out](const std::string& text) { out += text; }, data);
+    EXPECT_EQ(out,
               "cam.speed,seed,class,period,impacts_per_period,exponent,exponent_error,sample,t,theta\n"
               "1,0,rest,,,0,,,,\n"
               "2,0,periodic,1,,0.14285714285714285,,0,1,1.1000000000000001\n"

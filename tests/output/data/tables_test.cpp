@@ -19,9 +19,9 @@ sim::Table table_with_gaps() {
 }
 
 TEST(Csv, HasAHeaderSeventeenDigitsAndEmptyCells) {
-    std::ostringstream out;
-    write_csv(out, table_with_gaps());
-    EXPECT_EQ(out.str(),
+    std::string out;
+    write_csv([&out](const std::string& text) { out += text; }, table_with_gaps());
+    EXPECT_EQ(out,
               "t,q2,gap\n"
               "0,-1.5,\n"
               "0.10000000000000001,0.33333333333333331,2\n"
@@ -31,9 +31,9 @@ TEST(Csv, HasAHeaderSeventeenDigitsAndEmptyCells) {
 TEST(Csv, EveryNumberReadsBackToTheSameBits) {
     sim::Table table{{{ChannelKind::theta, 0}}, {{}}};
     for (int i = 0; i < 20000; ++i) table.values[0].push_back(std::ldexp(std::sin(i * 1.7), i % 200 - 100));
-    std::ostringstream out;
-    write_csv(out, table);
-    std::istringstream in(out.str());
+    std::string out;
+    write_csv([&out](const std::string& text) { out += text; }, table);
+    std::istringstream in(out);
     std::string line;
     std::getline(in, line);
     for (double value : table.values[0]) {
@@ -42,18 +42,12 @@ TEST(Csv, EveryNumberReadsBackToTheSameBits) {
     }
 }
 
-TEST(Csv, AFileHoldsWhatTheStreamGets) {
+TEST(Csv, AFileHoldsTheSameText) {
     Scratch scratch;
-    std::ostringstream out;
-    write_csv(out, table_with_gaps());
+    std::string out;
+    write_csv([&out](const std::string& text) { out += text; }, table_with_gaps());
     write_table(scratch / "a.csv", table_with_gaps());
-    EXPECT_EQ(read_file(scratch / "a.csv"), out.str());
-}
-
-TEST(Csv, AClosedOutputIsAnErrorInWords) {
-    std::ostringstream out;
-    out.setstate(std::ios::badbit);
-    EXPECT_THROW(write_csv(out, table_with_gaps()), IoError);
+    EXPECT_EQ(read_file(scratch / "a.csv"), out);
 }
 
 TEST(Npz, NumpyReadsTheSameNumbers) {
