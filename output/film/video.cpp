@@ -82,7 +82,7 @@ struct VideoWriter::Impl {
         if (!options.palette.empty()) table.emplace(options.palette);
         try {
             encoder = video_library().open_encoder(options, file.temporary_path(), file.target());
-        } catch (const CodecFailure& error) {  // for reasons unknown to `problems`
+        } catch (const CodecFailure& error) {  // for reasons that the limits do not contain
             throw UnsupportedOption(std::string("the encoder of ") + title(options.codec) + " rejects films of " +
                                     std::to_string(options.width) + "x" + std::to_string(options.height) +
                                     " pixels here (" + error.what() +
@@ -223,14 +223,8 @@ struct VideoWriter::Impl {
     }
 };
 
-VideoWriter::VideoWriter(const FileTarget& file, const VideoOptions& options) {
-    if (const auto found = problems(options, file.path.extension().string()); !found.empty()) {
-        std::string text;
-        for (const std::string& problem : found) text += (text.empty() ? "" : "\n") + problem;
-        throw UnsupportedOption(text);
-    }
-    impl_ = std::make_unique<Impl>(file, options);
-}
+VideoWriter::VideoWriter(const FileTarget& file, const VideoOptions& options)
+    : impl_(std::make_unique<Impl>(file, options)) {}
 
 VideoWriter::~VideoWriter() = default;
 

@@ -31,7 +31,7 @@ struct VideoStatistics {
 
 class VideoWriter {
   public:
-    // Throws UnsupportedOption, MissingCodec, IoError.
+    // The options have none of the problems of video_format.hpp. Throws UnsupportedOption, MissingCodec, IoError.
     VideoWriter(const FileTarget& file, const VideoOptions& options);
     // Removes the film unless `finish` was called.
     ~VideoWriter();

@@ -138,17 +138,6 @@ std::string rate_problem(Codec codec, double fps) {
     return {};
 }
 
-std::vector<std::string> problems(const VideoOptions& o, std::string_view ending) {
-    std::vector<std::string> found;
-    for (std::string problem :
-         {format_problem(ending, o.codec, o.transparent), size_problem(o.codec, o.width, o.height),
-          rate_problem(o.codec, o.fps.value()), quality_problem(o.codec, o.crf)})
-        if (!problem.empty()) found.push_back(std::move(problem));
-    if (o.codec == Codec::gif && (o.palette.empty() || o.palette.size() > 256))
-        found.push_back("a GIF needs a palette of 1 to 256 colours");
-    return found;
-}
-
 FrameRate frame_rate(double fps) {
     if (const std::string problem = rate_problem(Codec::h264, fps); !problem.empty()) throw UnsupportedOption(problem);
     // 23.976, 23.98, 29.97, 59.94 …: usual decimals differ from n·1000/1001 by less than 0.005; no integer rate does.

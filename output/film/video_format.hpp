@@ -68,7 +68,5 @@ std::string format_problem(std::string_view ending, Codec codec, bool transparen
 std::string quality_problem(Codec codec, std::optional<int> crf);
 std::string size_problem(Codec codec, int width, int height);
 std::string rate_problem(Codec codec, double fps);
-// All of these problems.
-std::vector<std::string> problems(const VideoOptions& options, std::string_view ending = ".mp4");
 
 }  // namespace beamcam::output

@@ -118,6 +118,7 @@ TEST(FormatProblems, AnImpossibleCombinationNamesAnother) {
     EXPECT_NE(format_problem(".avi", Codec::h264, false).find(".mp4"), std::string::npos);
     EXPECT_EQ(format_problem(".mov", Codec::prores, true), "");
     EXPECT_NE(size_problem(Codec::vp9, 101, 50).find("102x50"), std::string::npos);
+    EXPECT_NE(size_problem(Codec::h264, 1919, 1081).find("use 1920x1082"), std::string::npos);
     EXPECT_EQ(size_problem(Codec::gif, 101, 51), "");
     EXPECT_NE(size_problem(Codec::h264, 16384, 16384).find("16250x16250"), std::string::npos);
     EXPECT_EQ(size_problem(Codec::h264, 16256, 16254), "");

@@ -415,24 +415,6 @@ TEST(Film, SecondSignalLeavesNothing) {
     EXPECT_TRUE(scratch.names().empty());
 }
 
-TEST(VideoOptions, DefaultsAreSound) { EXPECT_TRUE(problems({}).empty()); }
-
-TEST(VideoOptions, OddSizesAreRefusedWithTheEvenSize) {
-    VideoOptions options;
-    options.width = 1919, options.height = 1081;
-    ASSERT_EQ(problems(options).size(), 1u);
-    EXPECT_NE(problems(options)[0].find("use 1920x1082"), std::string::npos) << problems(options)[0];
-    Scratch scratch;
-    EXPECT_THROW(VideoWriter(scratch / "a.mp4", options), UnsupportedOption);
-    EXPECT_TRUE(scratch.names().empty());
-}
-
-TEST(VideoOptions, EveryProblemIsToldAtOnce) {
-    VideoOptions options;
-    options.width = 0, options.fps = {-1, 1}, options.crf = 99;
-    EXPECT_EQ(problems(options).size(), 3u);
-}
-
 TEST(FrameRate, KnowsTheBroadcastRates) {
     EXPECT_EQ(frame_rate(60), (FrameRate{60, 1}));
     EXPECT_EQ(frame_rate(23.976), (FrameRate{24000, 1001}));
