@@ -61,26 +61,6 @@ std::string digest_of_module(const char* name) {
     return "none";
 }
 
-// Problems with the same motion become equal.
-sim::Problem canonical(sim::Problem p) {
-    p.beam.basis = resolved_basis(p);
-    p.contact.offset = contact_offset(p);
-    p.contact.exponent = contact_exponent(p);
-    // Hertz's stiffness of a cam with a profile changes along the outline, and depends on the materials.
-    const bool local = p.cam && p.cam->profile && !p.contact.stiffness && !is_line_contact(p);
-    if (!local) p.contact.stiffness = contact_stiffness(p);
-    const sim::SectionProperties section = section_properties(p.beam);
-    p.beam.section = sim::CustomSection{section.area, section.second_moment, section.c_max};  // c_max: for stresses
-    p.beam.depth = 1;                                                                         // otherwise only drawn
-    p.beam = with_numbers_of_material(p.beam);
-    if (p.cam && !local) {
-        p.cam->material.reset();
-        p.cam->youngs_modulus.reset();  // used for the stiffness only
-        p.cam->poisson_ratio = 0;
-    }
-    return p;
-}
-
 }  // namespace
 
 const std::string& program_identity() {
@@ -96,9 +76,8 @@ const std::string& program_identity() {
 
 std::string motion_key(const sim::Problem& problem) {
     Scene scene;
-    scene.problem = canonical(problem);
-    scene.end_time = 0;
-    return output::sha256("motion\n" + program_identity() + "\n" + to_json(scene));
+    scene.problem = problem;
+    return to_json(scene);
 }
 
 }  // namespace beamcam::scenes

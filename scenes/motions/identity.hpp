@@ -12,8 +12,8 @@ namespace beamcam::scenes {
 // selects code paths. It does not depend on which modules a command has loaded.
 const std::string& program_identity();
 
-// SHA-256 of everything that determines the motion: the physics with resolved defaults and the solver's settings. It
-// excludes the end time, because a shorter run is a prefix of a longer one.
+// Everything that determines the motion: the physics and the solver's settings, as a scene writes them. It excludes the
+// end time, because a shorter run is a prefix of a longer one.
 std::string motion_key(const sim::Problem& problem);
 
 }  // namespace beamcam::scenes
