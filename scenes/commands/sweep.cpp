@@ -90,7 +90,9 @@ Scene with_sweep_options(Scene scene, const SweepArguments& args) {
 // The files of the sweep as outputs of its scene.
 std::vector<Output> outputs_of(const SweepArguments& args, const Scene& scene) {
     std::vector<Output> outputs;
-    if (!args.file.empty() || !args.diagram) outputs.emplace_back(SweepOutput{args.file.empty() ? "-" : args.file});
+    if (!args.file.empty() || !args.diagram)
+        outputs.emplace_back(SweepOutput{args.file.empty() ? "-" : args.file,
+                                         args.shard ? shard_of(*args.shard, std::getenv) : Shard()});
     if (!args.diagram) return outputs;
     auto diagram = std::get<FigureOutput>(
         read_output(object_node({{"type", FigureOutput::kType}, {"figure", usual_diagram(scene)}}), {&args.keys}, scene,
@@ -124,9 +126,7 @@ void act(const SweepArguments& args) {
     if (args.caption) require_ending("--caption", *args.caption, kCaptionEndings);
     Scene scene = with_sweep_options(load_scene(args.scene, args.common), args);
     scene.set_outputs(outputs_of(args, scene));
-    RunOptions options = run_options(args.common, "");
-    if (args.shard) options.shard = shard_of(*args.shard, std::getenv);
-    run_or_plan({&scene, 1}, options, args.common);
+    run_or_plan({&scene, 1}, run_options(args.common, ""), args.common);
 }
 
 }  // namespace

@@ -177,13 +177,8 @@ void SweepOutput::visit(SceneVisitor& v) {
 }
 
 void plan(Planner& planner, const SweepOutput& sweep, const ResolvedOutput& resolved) {
-    DataFile data{resolved.index, sweep.file};
-    if (const Shard& shard = planner.shard(); !shard.whole()) {
-        data.file = part_file(sweep.file, shard);
-        data.part = shard.text();
-    }
-    planner.require_sweep(data.file);
-    planner.add(std::move(data));
+    planner.require_sweep(file_of(sweep), sweep.shard);
+    planner.add(DataFile{resolved.index, file_of(sweep)});
 }
 
 static std::string write(const SweepOutput&, const DataFile&, const DataSource& from) {

@@ -177,7 +177,6 @@ void FigureOutput::visit(SceneVisitor& v) {
 
 void plan(Planner& planner, const FigureOutput& how, const ResolvedOutput& resolved) {
     const FigureType& type = *figure_type(how.figure);
-    if (type.of_sweep() && !planner.shard().whole()) return;  // a part of a sweep has no diagram
     if (type.of_sweep()) planner.require_sweep(how.file);
     MotionRequests requests;
     FigureMaker maker = type.prepare(planner.scene(), how, requests);

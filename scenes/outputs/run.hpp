@@ -21,7 +21,6 @@ struct RunOptions {
     std::string directory = ".";
     int threads = 0;     // for drawing; 0: one for each core
     bool force = false;  // replace foreign files, and write up-to-date files again
-    Shard shard;         // the part of a sweep
     bool quiet = false;  // do not report written files
     bool verbose = false;
     ProgressStyle progress = ProgressStyle::automatic;

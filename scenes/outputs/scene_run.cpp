@@ -40,10 +40,9 @@ sim::Table reached_rows(const sim::Table& table) {
 SceneRun::SceneRun(const Scene& scene, RunContext& context)
     : scene_(scene),
       context_(context),
-      inputs_(inputs_keys(scene, context.options.shard)),
+      inputs_(inputs_keys(scene)),
       existing_(context.options.force ? ExistingWork()
-                                      : find_existing(scene, inputs_, context.options.shard, context.options.directory,
-                                                      context.file_list)),
+                                      : find_existing(scene, inputs_, context.options.directory, context.file_list)),
       files_(scene, inputs_, context) {}
 
 // ---- before the motions ------------------------------------------------------------------------
@@ -53,7 +52,7 @@ Plan SceneRun::dry_plan() const {
     std::vector<std::size_t> waiting;
     for (std::size_t i = 0; i < scene_.outputs.size(); ++i)
         if (needs_events(scene_.outputs[i], scene_) && without.insert(i).second) waiting.push_back(i);
-    Plan made = scenes::plan(resolve(scene_, without, {}), context_.options.shard, existing_);
+    Plan made = scenes::plan(resolve(scene_, without, {}), existing_);
     made.waiting = std::move(waiting);
     return made;
 }
@@ -63,22 +62,16 @@ void SceneRun::prepare() {
     files_.recover();
     std::vector<std::string> files;
     for (std::size_t i = 0; i < scene_.outputs.size(); ++i)
-        if (!existing_.finished.contains(i) && !is_part_of_sweep(i))
-            std::ranges::move(written_by(scene_.outputs[i]), back_inserter(files));
+        if (!existing_.finished.contains(i)) std::ranges::move(written_by(scene_.outputs[i]), back_inserter(files));
     files_.claim(files);
     check_libraries();
-}
-
-bool SceneRun::is_part_of_sweep(std::size_t output) const {
-    return std::holds_alternative<SweepOutput>(scene_.outputs[output]) && !context_.options.shard.whole();
 }
 
 void SceneRun::report_up_to_date() {
     for (const std::size_t output : existing_.finished) {
         ++context_.work.files_left;
-        std::string file = file_of(scene_.outputs[output]);
-        if (is_part_of_sweep(output)) file = part_file(file, context_.options.shard);
-        context_.print("kept {}: up to date (--force writes it again)\n", files_.path_of(file).string());
+        context_.print("kept {}: up to date (--force writes it again)\n",
+                       files_.path_of(file_of(scene_.outputs[output])).string());
     }
 }
 
@@ -122,10 +115,8 @@ void SceneRun::plan() {
         },
         [&](std::size_t output, const std::function<void()>& work) { attempt(output, work); });
     context_.times.simulate += seconds_since(start);
-    plan_ = scenes::plan(resolved, context_.options.shard, existing_);
+    plan_ = scenes::plan(resolved, existing_);
     std::vector<std::string> files;  // whose names are known now
-    for (const DataFile& d : plan_.data)
-        if (!d.part.empty()) files.push_back(d.file);
     for (const PlannedPictures& p : plan_.pictures) {
         if (p.kind != PictureOutput::Kind::frames) continue;
         for (std::size_t k = 0; k < p.draw.size(); ++k) files.push_back(numbered_file(p.file, p.number_of(k)));
@@ -147,7 +138,7 @@ void SceneRun::compute_sweep() {
         sweep_ = std::make_unique<SweepRun>(scene_);
     } else {
         const fs::path store = files_.path_of(plan_.sweep).string() + ".part";
-        sweep_ = std::make_unique<SweepRun>(scene_, context_.options.shard, store, context_.options.force);
+        sweep_ = std::make_unique<SweepRun>(scene_, plan_.shard, store, context_.options.force);
     }
     const std::uint64_t found = sweep_->points_there();
     if (found > 0) context_.print("found {} of an earlier run\n", counted(found, "point"));

@@ -31,7 +31,6 @@ class SceneRun {
     void write_outputs();
 
   private:
-    bool is_part_of_sweep(std::size_t output) const;
     void report_up_to_date();
     void report_kept_frames(const ResolvedOutput& sequence);
     void check_libraries();

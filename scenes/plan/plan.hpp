@@ -51,7 +51,6 @@ struct FigureFile {
 struct DataFile {
     std::size_t output = 0;
     std::string file;
-    std::string part = {};                 // of a sweep: "2/3"; empty: all of it
     std::string content = {};              // for the text of the plan: "1501 rows"
     std::vector<std::size_t> tables = {};  // indices into the tables of the request for the scene's motion
     std::size_t index = 0;                 // into its poses or states
@@ -62,6 +61,7 @@ struct Plan {
     std::vector<MotionRequest> motions;
     std::optional<std::size_t> run;  // the request for data files of the scene's motion
     std::string sweep;               // the first file that needs the points of the scene's sweep; empty: none
+    Shard shard;                     // the part of the sweep
     std::vector<PlannedPictures> pictures;
     std::vector<FigureFile> figures;
     std::vector<DataFile> data;        // in the order of the types
@@ -76,8 +76,7 @@ struct PlanWithFigures : Plan {
     std::vector<FigureMaker> makers;
 };
 
-// `shard`: the part of the sweep that this run computes.
-PlanWithFigures plan(const ResolvedScene& scene, const Shard& shard = {}, const ExistingWork& existing = {});
+PlanWithFigures plan(const ResolvedScene& scene, const ExistingWork& existing = {});
 
 // The end of a run for all outputs of a scene [s].
 double run_end(const Scene& scene);

@@ -128,8 +128,8 @@ void Planner::add(FigureFile figure, FigureMaker maker, std::vector<MotionReques
     plan_.makers.push_back(std::move(maker));
 }
 
-PlanWithFigures plan(const ResolvedScene& scene, const Shard& shard, const ExistingWork& existing) {
-    return Planner(scene, shard, existing).make();
+PlanWithFigures plan(const ResolvedScene& scene, const ExistingWork& existing) {
+    return Planner(scene, existing).make();
 }
 
 double run_end(const Scene& scene) {

@@ -10,20 +10,18 @@ namespace beamcam::scenes {
 
 class Planner {
   public:
-    Planner(const ResolvedScene& resolved, const Shard& shard, const ExistingWork& existing)
-        : resolved_(resolved), shard_(shard), existing_(existing) {}
+    Planner(const ResolvedScene& resolved, const ExistingWork& existing) : resolved_(resolved), existing_(existing) {}
     PlanWithFigures make();
 
     // ---- called by the output types ----
 
     const Scene& scene() const { return resolved_.scene; }
-    const Shard& shard() const { return shard_; }
     // The request for data files, which extends to `t` [s].
     sim::Request& run_until(double t);
     // Adds a table to it; returns its index.
     std::size_t add_table(std::vector<double> times, std::vector<sim::Channel> channels);
-    void require_sweep(const std::string& file) {
-        if (plan_.sweep.empty()) plan_.sweep = file;
+    void require_sweep(const std::string& file, const Shard& shard = {}) {
+        if (plan_.sweep.empty()) plan_.sweep = file, plan_.shard = shard;
     }
     void add(const ResolvedOutput& picture);
     void add(FigureFile figure, FigureMaker maker, std::vector<MotionRequest> motions);
@@ -34,7 +32,6 @@ class Planner {
     const std::string& own_key();  // of the scene's motion
 
     const ResolvedScene& resolved_;
-    const Shard& shard_;
     const ExistingWork& existing_;
     PlanWithFigures plan_;
     std::string own_key_;

@@ -41,10 +41,6 @@ class Files {
     output::FileList& file_list_;
 };
 
-std::string part_of(const Output& output, const Shard& shard) {
-    return std::holds_alternative<SweepOutput>(output) && !shard.whole() ? shard.text() : std::string();
-}
-
 // The end of the motion on which an output depends [s]; 0 if its own keys say where it ends.
 double end_of_inputs(const Output& output, const Scene& scene) {
     const auto unless = [&](bool by_own_keys) { return by_own_keys ? 0 : scene.end_time; };
@@ -58,7 +54,7 @@ double end_of_inputs(const Output& output, const Scene& scene) {
 
 }  // namespace
 
-std::string inputs_key(const Scene& scene, std::size_t output, const std::string& part) {
+std::string inputs_key(const Scene& scene, std::size_t output) {
     const Output& one = scene.outputs.at(output);
     const OutputInputs shown = inputs_of(one);
     const auto* figure = std::get_if<FigureOutput>(&one);
@@ -71,7 +67,8 @@ std::string inputs_key(const Scene& scene, std::size_t output, const std::string
     if (!shown.data) inputs.data.clear();
     if (!of_sweep) inputs.sweep.reset();
     inputs.end_time = of_sweep ? 0 : end_of_inputs(one, scene);
-    std::string other = part;
+    const auto* sweep = std::get_if<SweepOutput>(&one);
+    std::string other = sweep && !sweep->shard.whole() ? sweep->shard.text() : "";
     for (const Measurement& each : inputs.data) other += "\n" + each.digest;
     if (figure) {  // not part of the scene
         const char* epoch = figure->file.ends_with(".png") ? nullptr : std::getenv("SOURCE_DATE_EPOCH");
@@ -80,15 +77,15 @@ std::string inputs_key(const Scene& scene, std::size_t output, const std::string
     return output::sha256(fmt::format("inputs\n{}\n{}\n{}", program_identity(), other, metadata_json(inputs)));
 }
 
-std::vector<std::string> inputs_keys(const Scene& scene, const Shard& shard) {
+std::vector<std::string> inputs_keys(const Scene& scene) {
     std::vector<std::string> all(scene.outputs.size());
     for (std::size_t i = 0; i < scene.outputs.size(); ++i)
-        if (!is_stdout(file_of(scene.outputs[i]))) all[i] = inputs_key(scene, i, part_of(scene.outputs[i], shard));
+        if (!is_stdout(file_of(scene.outputs[i]))) all[i] = inputs_key(scene, i);
     return all;
 }
 
-ExistingWork find_existing(const Scene& scene, const std::vector<std::string>& inputs, const Shard& shard,
-                           const std::string& directory, output::FileList& file_list) {
+ExistingWork find_existing(const Scene& scene, const std::vector<std::string>& inputs, const std::string& directory,
+                           output::FileList& file_list) {
     ExistingWork found;
     Files files(directory, file_list);
     for (std::size_t i = 0; i < scene.outputs.size(); ++i) {
@@ -98,9 +95,8 @@ ExistingWork find_existing(const Scene& scene, const std::vector<std::string>& i
             found.frames[i] = files.frames(file_of(output), inputs[i]);
             continue;
         }
-        std::vector<std::string> written = written_by(output);
-        if (!part_of(output, shard).empty()) written = {part_file(file_of(output), shard)};
-        if (std::ranges::all_of(written, [&](const std::string& file) { return files.up_to_date(file, inputs[i]); }))
+        if (std::ranges::all_of(written_by(output),
+                                [&](const std::string& file) { return files.up_to_date(file, inputs[i]); }))
             found.finished.insert(i);
     }
     return found;

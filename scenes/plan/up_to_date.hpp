@@ -11,15 +11,14 @@
 namespace beamcam::scenes {
 
 // SHA-256 of everything that the files of one output depend on: an input that it misses would keep an outdated file.
-// `part`: of a sweep; empty: all.
-std::string inputs_key(const Scene& scene, std::size_t output, const std::string& part = {});
+std::string inputs_key(const Scene& scene, std::size_t output);
 
 // The key of each output of the scene; empty for standard output.
-std::vector<std::string> inputs_keys(const Scene& scene, const Shard& shard);
+std::vector<std::string> inputs_keys(const Scene& scene);
 
 // `directory` as in RunOptions.
-ExistingWork find_existing(const Scene& scene, const std::vector<std::string>& inputs, const Shard& shard,
-                           const std::string& directory, output::FileList& file_list);
+ExistingWork find_existing(const Scene& scene, const std::vector<std::string>& inputs, const std::string& directory,
+                           output::FileList& file_list);
 
 // The path of an output's file; with an empty `directory` the name is the path.
 std::filesystem::path place_of(const std::string& directory, const std::string& file);

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "scenes/scene/files.hpp"
 #include "scenes/scene/pictures.hpp"
 #include "sim/observe/channels.hpp"
 
@@ -90,7 +91,8 @@ struct SweepOutput {
     static constexpr const char *kType = "sweep",
                                 *kMeaning = "The points of the scene's sweep: one row for each sample.";
     static constexpr OutputInputs kInputs{.sweep = true};
-    std::string file;  // .nc, .csv or .npz
+    std::string file;  // .nc, .csv or .npz, of the whole sweep
+    Shard shard = {};  // the part that is made, on this machine; not a key
 
     void visit(SceneVisitor& v);
 };

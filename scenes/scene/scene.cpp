@@ -8,8 +8,10 @@
 
 namespace beamcam::scenes {
 
-const std::string& file_of(const Output& output) {
-    return std::visit([](const auto& o) -> const std::string& { return o.file; }, output);
+std::string file_of(const Output& output) {
+    if (const auto* sweep = std::get_if<SweepOutput>(&output); sweep && !sweep->shard.whole())
+        return part_file(sweep->file, sweep->shard);
+    return std::visit([](const auto& o) { return o.file; }, output);
 }
 
 PictureOutput PictureOutput::of(Kind kind) {

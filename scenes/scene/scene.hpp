@@ -11,7 +11,7 @@
 
 namespace beamcam::scenes {
 
-const std::string& file_of(const Output& output);
+std::string file_of(const Output& output);                  // of a part of a sweep: that of the part
 std::string poster_file(const PictureOutput& video);        // "fall.png" beside "fall.mp4"; empty: none
 std::vector<std::string> written_by(const Output& output);  // its file and its secondary files
 OutputInputs inputs_of(const Output& output);

@@ -37,9 +37,9 @@ double end_of_motions(const Plan& p) {
     return end;
 }
 
-std::string text_of(const std::string& scene_text, const Shard& shard = {}, const ExistingWork& existing = {}) {
+std::string text_of(const std::string& scene_text, const ExistingWork& existing = {}) {
     const Scene scene = scene_of(scene_text);
-    return to_text(plan(resolve(scene, existing.finished, {}), shard, existing), scene);
+    return to_text(plan(resolve(scene, existing.finished, {}), existing), scene);
 }
 
 TEST(Plan, WithoutOutputsNothingIsDone) {
@@ -220,14 +220,14 @@ TEST(PlanText, WhatIsUpToDateIsKept) {
     ExistingWork existing;
     existing.finished = {1};
     existing.frames[0] = {0, 1, 2, 7};
-    EXPECT_EQ(text_of(kTwo, {}, existing), R"(motion      first-order, 2 modes: until 0.5 s
+    EXPECT_EQ(text_of(kTwo, existing), R"(motion      first-order, 2 modes: until 0.5 s
 frames      f-##.png: 6 frames
 kept        t.csv
 kept        4 frames of f-##.png
 )");
     existing.finished = {1};
     existing.frames[0] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
-    EXPECT_EQ(text_of(kTwo, {}, existing), R"(kept        t.csv
+    EXPECT_EQ(text_of(kTwo, existing), R"(kept        t.csv
 kept        10 frames of f-##.png
 )");
 }
