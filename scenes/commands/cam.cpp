@@ -54,7 +54,7 @@ sim::BeamJump jump_of_beam(const Scene& scene, const sim::Lever::Summary& summar
             "--beam: a straight rigid lever has no jump speed from which the search could begin; see the gap_peak of "
             "`beamcam sweep SCENE --over cam.speed=FIRST:LAST:COUNT --sample peaks`");
     Progress progress(progress_style(common));
-    const ProgressStage stage(progress, "jump speed of the beam", std::nullopt, "motions");
+    progress.begin("jump speed of the beam", std::nullopt, "motions");
     const auto found = sim::beam_jump(p, summary.jump->speed, [&](double motion) { return progress.reach(motion); });
     if (!found)
         throw UsageError(

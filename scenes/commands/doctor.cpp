@@ -72,10 +72,9 @@ std::vector<Check> examine_machine() {
         [] { return render::make_body_renderer(16, 16)->name(); });
     examine_fonts("figures", render::font_files(render::Typefaces::print));
     examine_films(checks);
-    examine(checks, "fingerprint", "flat", "see the fonts above", [] { return flat_fingerprint().id(); });
-    examine(checks, "fingerprint", "figures", "see the fonts of figures above",
-            [] { return figure_fingerprint().id(); });
-    examine(checks, "fingerprint", "lit", "see OpenGL above", [] { return body_fingerprint().id(); });
+    examine(checks, "fingerprint", "flat", "see the fonts above", flat_fingerprint);
+    examine(checks, "fingerprint", "figures", "see the fonts of figures above", figure_fingerprint);
+    examine(checks, "fingerprint", "lit", "see OpenGL above", body_fingerprint);
     return checks;
 }
 

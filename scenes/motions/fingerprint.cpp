@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <map>
 
 #include "output/files/digest.hpp"
 #include "render/base/versions.hpp"
@@ -11,32 +12,25 @@
 
 namespace beamcam::scenes {
 
-std::string Fingerprint::id() const {
+static std::string fingerprint_with(render::Typefaces typefaces, std::map<std::string, std::string> parts = {}) {
+    for (const auto& [name, version] : render::library_versions()) parts[name] = version;
+    // pixman reads it before main, so main.cpp cannot remove it.
+    if (const char* disabled = std::getenv("PIXMAN_DISABLE")) parts["PIXMAN_DISABLE"] = disabled;
+    for (const render::FontFile& font : render::font_files(typefaces)) {
+        if (font.path.empty() && typefaces == render::Typefaces::print) continue;  // the Chinese one may be missing
+        parts[fmt::format("font {}", font.name)] = output::sha256_of_file(font.path).substr(0, 12);
+    }
     output::Sha256 hash;
     for (const auto& [part, version] : parts) hash.update(fmt::format("{}={}\n", part, version));
     return hash.hex().substr(0, 12);
 }
 
-static Fingerprint fingerprint_with(render::Typefaces typefaces) {
-    Fingerprint found;
-    for (const auto& [name, version] : render::library_versions()) found.parts[name] = version;
-    // pixman reads it before main, so main.cpp cannot remove it.
-    if (const char* disabled = std::getenv("PIXMAN_DISABLE")) found.parts["PIXMAN_DISABLE"] = disabled;
-    for (const render::FontFile& font : render::font_files(typefaces)) {
-        if (font.path.empty() && typefaces == render::Typefaces::print) continue;  // the Chinese one may be missing
-        found.parts[fmt::format("font {}", font.name)] = output::sha256_of_file(font.path).substr(0, 12);
-    }
-    return found;
-}
+std::string flat_fingerprint() { return fingerprint_with(render::Typefaces::screen); }
+std::string figure_fingerprint() { return fingerprint_with(render::Typefaces::print); }
 
-Fingerprint flat_fingerprint() { return fingerprint_with(render::Typefaces::screen); }
-Fingerprint figure_fingerprint() { return fingerprint_with(render::Typefaces::print); }
-
-Fingerprint body_fingerprint() {
-    Fingerprint found = flat_fingerprint();
-    found.parts["OpenGL"] = render::make_body_renderer(16, 16)->name();
-    found.parts["processor"] = processor_path();
-    return found;
+std::string body_fingerprint() {
+    return fingerprint_with(render::Typefaces::screen,
+                            {{"OpenGL", render::make_body_renderer(16, 16)->name()}, {"processor", processor_path()}});
 }
 
 std::string processor_path() {

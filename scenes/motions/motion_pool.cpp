@@ -72,10 +72,9 @@ void MotionPool::compute() {
     double total = 0;
     for (const Group& group : all) total += end_of(group.front()->wanted.request);
     ProgressSum sum(all.size(), progress_);
-    {
-        const ProgressStage stage(progress_, "simulate", total, "s");
-        fan_out(all.size(), options_.threads, [&](std::size_t k) { compute(all[k], sum.of(k)); });
-    }
+    progress_.begin("simulate", total, "s");
+    fan_out(all.size(), options_.threads, [&](std::size_t k) { compute(all[k], sum.of(k)); });
+    progress_.end();
     for (const Group& group : all) report(group);
 }
 
@@ -120,8 +119,10 @@ void MotionPool::report(const Group& group) const {
 }
 
 sim::Result MotionPool::find_events(const sim::Problem& problem, const sim::Request& request) {
-    const ProgressStage stage(progress_, "impacts", end_of(request), "s");
-    return std::move(integrate(problem, {&request, 1}, [this](double t) { return progress_.reach(t); }).front());
+    progress_.begin("impacts", end_of(request), "s");
+    auto results = integrate(problem, {&request, 1}, [this](double t) { return progress_.reach(t); });
+    progress_.end();
+    return std::move(results.front());
 }
 
 std::vector<sim::Result> MotionPool::integrate(const sim::Problem& problem, std::span<const sim::Request> requests,

@@ -68,19 +68,4 @@ class Progress {
     Clock::time_point started_, shown_;
 };
 
-// A stage that ends with this, also by an exception.
-class ProgressStage {
-  public:
-    ProgressStage(Progress& progress, std::string stage, std::optional<double> total, std::string unit)
-        : progress_(progress) {
-        progress_.begin(std::move(stage), total, std::move(unit));
-    }
-    ~ProgressStage() { progress_.end(); }
-    ProgressStage(const ProgressStage&) = delete;
-    ProgressStage& operator=(const ProgressStage&) = delete;
-
-  private:
-    Progress& progress_;
-};
-
 }  // namespace beamcam::scenes

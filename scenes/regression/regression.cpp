@@ -18,10 +18,10 @@ namespace beamcam::scenes {
 namespace {
 
 // Identifies what draws the pictures of an entry.
-using Renderer = Fingerprint (*)();
+using Renderer = std::string (*)();
 
 Renderer renderer_of(const Baseline& entry) {
-    if (!entry.has_pictures()) return [] { return Fingerprint(); };
+    if (!entry.has_pictures()) return [] { return std::string(); };
     const Picture* picture = entry.picture();
     return !picture                                     ? figure_fingerprint
            : picture->view.style == render::Style::flat ? flat_fingerprint
@@ -58,7 +58,7 @@ class Regression {
             }
             const Renderer renderer = renderer_of(*chosen[i]);
             try {
-                if (!renderers_.contains(renderer)) renderers_[renderer] = renderer().id();
+                if (!renderers_.contains(renderer)) renderers_[renderer] = renderer();
                 tests_.push_back(std::make_unique<EntryTest>(baselines_, *chosen[i], options_, renderers_[renderer],
                                                              report_files_, result));
             } catch (const render::MissingPart& error) {  // such as OpenGL for a lit view

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "output/json/tree.hpp"
+#include "render/draw/markup.hpp"
 #include "scenes/regression/report.hpp"
 
 namespace beamcam::scenes {
@@ -37,19 +39,9 @@ std::string junit_case(const std::string& suite, const EntryResult& entry, const
 }  // namespace
 
 std::string escaped_for_xml(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '&')
-            out += "&amp;";
-        else if (c == '<')
-            out += "&lt;";
-        else if (c == '>')
-            out += "&gt;";
-        else if (c == '"')
-            out += "&quot;";
-        else if (static_cast<unsigned char>(c) >= 0x20 || c == '\n')
-            out.push_back(c);
-    }
+    std::string out = render::xml(text);
+    replace_all(out, "\"", "&quot;");
+    std::erase_if(out, [](unsigned char c) { return c < 0x20 && c != '\n'; });
     return out;
 }
 

@@ -129,9 +129,10 @@ void make_points(const SweepGrid& grid, const Shard& shard, int threads, Progres
     std::uint64_t missing = 0;
     for (std::uint64_t p = 0; p < mine.size(); ++p) missing += mine[p] && !store.has(p) ? 1 : 0;
     if (missing == 0) return;
-    const ProgressStage stage(progress, "sweep", static_cast<double>(missing), "points");
+    progress.begin("sweep", static_cast<double>(missing), "points");
     PointMaker maker(grid, store, progress);
     fan_out(tasks.size(), threads, [&](std::size_t k) { maker.make(grid.task(tasks[k])); });
+    progress.end();
 }
 
 output::PointHead head_of(const SweepGrid& grid, const Shard& shard) {
