@@ -30,7 +30,7 @@ void reject_unknown_command(std::span<const char* const> words, const Program& p
     if (std::ranges::find(known, word) != known.end()) return;
     if (word.ends_with(".json"))
         throw UsageError(fmt::format("there is no command before the scene; write beamcam run {}", word));
-    const std::string remedy = absent_command(word);
+    const std::string remedy = absent(word);
     throw UsageError(fmt::format("unknown command {}{}", in_quotes(word),
                                  remedy.empty() ? suggestion_or_list(word, known) : remedy));
 }
@@ -51,8 +51,9 @@ std::string unexpected_words(const std::vector<std::string>& words, const CLI::A
         for (std::string& name : split(option->get_name(false, true), ',')) known.push_back(std::move(name));
     for (const std::string& word : words) {
         if (!word.starts_with('-') || word == "-") continue;
-        std::string remedy = absent_option(word);
-        if (remedy.empty() && word.starts_with("--")) remedy = suggestion(word.substr(0, word.find('=')), known);
+        const std::string name = word.substr(0, word.find('='));  // of "--frames=0:60"
+        std::string remedy = absent(name);
+        if (remedy.empty() && word.starts_with("--")) remedy = suggestion(name, known);
         named.push_back(fmt::format("unknown option {}{}", word, remedy));
     }
     return named.empty() ? fmt::format("unexpected argument {}", fmt::join(words, " "))

@@ -216,8 +216,8 @@ void require_ending(const char* option, const std::string& file, std::initialize
     if (is_stdout(file))
         throw UsageError(fmt::format("{} -: name a file that ends in {}", option, fmt::join(endings, " or ")));
     if (std::ranges::find(endings, ending_of(file)) != endings.end()) return;
-    throw UsageError(
-        fmt::format("{} {}: the name must end in {}{}", option, file, fmt::join(endings, " or "), absent_ending(file)));
+    throw UsageError(fmt::format("{} {}: the name must end in {}{}", option, file, fmt::join(endings, " or "),
+                                 absent(ending_of(file))));
 }
 
 void require_ending_or_stdout(const char* option, const std::string& file, std::initializer_list<const char*> endings) {

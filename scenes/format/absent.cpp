@@ -8,7 +8,7 @@
 namespace beamcam::scenes {
 namespace {
 
-enum class WordKind { not_modelled, key, value, unit, command, option, ending };
+enum class WordKind { not_modelled, key, other };
 
 struct Absent {
     WordKind kind;
@@ -17,7 +17,8 @@ struct Absent {
 };
 
 // Words of `not_modelled` are one or more parts of a key: "spring" is found in "return_spring" and in "springRate". A
-// word may begin with the object that has the key: "hub.damping". A value is "key=word".
+// word may begin with the object that has the key: "hub.damping". Other words are units, commands, options, endings of
+// files, and values as "key=word".
 constexpr Absent kAbsent[] = {
     {WordKind::key, "lift lift_table polynomial ellipse base_circle lobe",
      "\"profile\" of the cam describes any convex outline: by a motion law, by arcs or by points"},
@@ -69,49 +70,49 @@ constexpr Absent kAbsent[] = {
      "it was withdrawn: references are plain files, which beamcam test BASELINES --update writes; remove the key"},
     {WordKind::key, "expected", "it was withdrawn; beamcam diff compares pictures of other programs"},
 
-    {WordKind::value, "type=model", "3-D models were withdrawn; a \"page\" plays the motion in a browser"},
-    {WordKind::value, "type=shapes",
+    {WordKind::other, "type=model", "3-D models were withdrawn; a \"page\" plays the motion in a browser"},
+    {WordKind::other, "type=shapes",
      "it was withdrawn; beamcam figure SCENE kymograph --data FILE.csv has the deflections"},
-    {WordKind::value, "type=sweep-film", "it was withdrawn; write a \"sweep\", a \"figure\" and \"video\" outputs"},
-    {WordKind::value, "codec=hevc codec=av1 codec=apng",
+    {WordKind::other, "type=sweep-film", "it was withdrawn; write a \"sweep\", a \"figure\" and \"video\" outputs"},
+    {WordKind::other, "codec=hevc codec=av1 codec=apng",
      "it was withdrawn; write h264, or vp9 or prores for a transparent film"},
-    {WordKind::value, "method=exponential method=arkode-erk", "it was withdrawn; write auto or rk8"},
-    {WordKind::value, "type=gif", "write a \"video\" whose \"file\" ends in .gif"},
-    {WordKind::value, "type=apng", "write a \"video\" whose \"file\" ends in .webp or .gif"},
+    {WordKind::other, "method=exponential method=arkode-erk", "it was withdrawn; write auto or rk8"},
+    {WordKind::other, "type=gif", "write a \"video\" whose \"file\" ends in .gif"},
+    {WordKind::other, "type=apng", "write a \"video\" whose \"file\" ends in .webp or .gif"},
 
-    {WordKind::unit, "inch inches", "write in"},
-    {WordKind::unit, "metre metres meter meters", "write m"},
-    {WordKind::unit, "second seconds sec", "write s"},
-    {WordKind::unit, "degree degrees", "write deg"},
-    {WordKind::unit, "radian radians", "write rad"},
-    {WordKind::unit, "hertz", "write Hz"},
-    {WordKind::unit, "newton newtons", "write N"},
+    {WordKind::other, "inch inches", "write in"},
+    {WordKind::other, "metre metres meter meters", "write m"},
+    {WordKind::other, "second seconds sec", "write s"},
+    {WordKind::other, "degree degrees", "write deg"},
+    {WordKind::other, "radian radians", "write rad"},
+    {WordKind::other, "hertz", "write Hz"},
+    {WordKind::other, "newton newtons", "write N"},
 
-    {WordKind::command, "accept", "it was withdrawn; write beamcam test BASELINES --update NAME"},
-    {WordKind::command, "completion manual", "it was withdrawn; scenes/completion.bash completes, --help explains"},
-    {WordKind::command, "cache", "it was withdrawn: motions are not stored between runs"},
-    {WordKind::command, "concat", "it was withdrawn; write ffmpeg -f concat -i LIST.txt -c copy FILM.mp4"},
-    {WordKind::command, "sheet", "it was withdrawn; write ffmpeg -i FILM.mp4 -vf fps=1,tile=4x3 -frames:v 1 SHEET.png"},
-    {WordKind::command, "paper", "it was withdrawn; write beamcam run scenes/paper/*.json -o paper"},
-    {WordKind::command, "stress", "it was withdrawn; tests/campaign of the source has the campaign"},
-    {WordKind::command, "help", "write beamcam --help"},
-    {WordKind::command, "version", "write beamcam --version"},
+    {WordKind::other, "accept", "it was withdrawn; write beamcam test BASELINES --update NAME"},
+    {WordKind::other, "completion manual", "it was withdrawn; scenes/completion.bash completes, --help explains"},
+    {WordKind::other, "cache", "it was withdrawn: motions are not stored between runs"},
+    {WordKind::other, "concat", "it was withdrawn; write ffmpeg -f concat -i LIST.txt -c copy FILM.mp4"},
+    {WordKind::other, "sheet", "it was withdrawn; write ffmpeg -i FILM.mp4 -vf fps=1,tile=4x3 -frames:v 1 SHEET.png"},
+    {WordKind::other, "paper", "it was withdrawn; write beamcam run scenes/paper/*.json -o paper"},
+    {WordKind::other, "stress", "it was withdrawn; tests/campaign of the source has the campaign"},
+    {WordKind::other, "help", "write beamcam --help"},
+    {WordKind::other, "version", "write beamcam --version"},
 
-    {WordKind::option, "--no-cache", "it was withdrawn: motions are not stored between runs"},
-    {WordKind::option, "--frames", "it was withdrawn; --from and --to choose a part of a film"},
-    {WordKind::option, "--shard", "films are made in one piece; beamcam sweep --shard divides a sweep"},
-    {WordKind::option, "--shapes",
+    {WordKind::other, "--no-cache", "it was withdrawn: motions are not stored between runs"},
+    {WordKind::other, "--frames", "it was withdrawn; --from and --to choose a part of a film"},
+    {WordKind::other, "--shard", "films are made in one piece; beamcam sweep --shard divides a sweep"},
+    {WordKind::other, "--shapes",
      "it was withdrawn; beamcam figure SCENE kymograph --data FILE.csv has the deflections"},
-    {WordKind::option, "--collision", "it was withdrawn; write --from collision:3 --to liftoff:3"},
-    {WordKind::option, "--emit --parts",
+    {WordKind::other, "--collision", "it was withdrawn; write --from collision:3 --to liftoff:3"},
+    {WordKind::other, "--emit --parts",
      "it was withdrawn; scenes/SWEEPS.md has recipes for GNU parallel, Snakemake and Slurm"},
-    {WordKind::option, "--film", "it was withdrawn; --diagram draws the sweep, beamcam render one of its motions"},
-    {WordKind::option, "--add-digest --on-new-renderer", "it was withdrawn; --update writes the references"},
-    {WordKind::option, "--annotate", "it was withdrawn; --report writes a page, --junit a file for CI services"},
-    {WordKind::option, "--text", "it was withdrawn: texts are drawn as outlines"},
+    {WordKind::other, "--film", "it was withdrawn; --diagram draws the sweep, beamcam render one of its motions"},
+    {WordKind::other, "--add-digest --on-new-renderer", "it was withdrawn; --update writes the references"},
+    {WordKind::other, "--annotate", "it was withdrawn; --report writes a page, --junit a file for CI services"},
+    {WordKind::other, "--text", "it was withdrawn: texts are drawn as outlines"},
 
-    {WordKind::ending, ".apng .eps .glb .tif .tiff .vtt .srt", "this format was withdrawn"},
-    {WordKind::ending, ".pdf .svg", "figures and beamcam render --at T -o FILE are drawn as .pdf and .svg"},
+    {WordKind::other, ".apng .eps .glb .tif .tiff .vtt .srt", "this format was withdrawn"},
+    {WordKind::other, ".pdf .svg", "figures and beamcam render --at T -o FILE are drawn as .pdf and .svg"},
 };
 
 std::string sentence(WordKind kind, auto&& matches) {
@@ -147,25 +148,8 @@ std::string absent_key(std::string_view path) {
     });
 }
 
-std::string absent_value(std::string_view path, std::string_view word) {
-    const std::string value = std::string(path.substr(path.rfind('.') + 1)) + "=" + std::string(word);
-    return sentence(WordKind::value, [&](const std::string& each) { return each == value; });
-}
-
-std::string absent_unit(std::string_view symbol) {
-    return sentence(WordKind::unit, [&](const std::string& each) { return each == symbol; });
-}
-
-std::string absent_command(std::string_view name) {
-    return sentence(WordKind::command, [&](const std::string& each) { return each == name; });
-}
-
-std::string absent_option(std::string_view name) {
-    return sentence(WordKind::option, [&](const std::string& each) { return each == name.substr(0, name.find('=')); });
-}
-
-std::string absent_ending(std::string_view file) {
-    return sentence(WordKind::ending, [&](const std::string& each) { return file.ends_with(each); });
+std::string absent(std::string_view word) {
+    return sentence(WordKind::other, [&](const std::string& each) { return each == word; });
 }
 
 std::vector<NotModelled> not_modelled() {

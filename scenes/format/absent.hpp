@@ -10,12 +10,9 @@
 namespace beamcam::scenes {
 
 // Each returns "; SENTENCE", or nothing for a word that the table does not have.
-std::string absent_key(std::string_view path);                           // "cam.lift"
-std::string absent_value(std::string_view path, std::string_view word);  // "solver.method", "exponential"
-std::string absent_unit(std::string_view symbol);                        // "inch"
-std::string absent_command(std::string_view name);
-std::string absent_option(std::string_view name);  // "--frames", or "--frames=0:60"
-std::string absent_ending(std::string_view file);  // of a file name: "a.eps"
+std::string absent_key(std::string_view path);  // "cam.lift"
+// A value of a key, "method=exponential", a unit, a command, an option, or the ending of a file, ".eps".
+std::string absent(std::string_view word);
 
 // A part that is not modelled: the words in keys, and the sentence about it.
 struct NotModelled {

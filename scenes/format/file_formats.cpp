@@ -25,7 +25,7 @@ std::string schema_of_file(const std::vector<const char*>& endings, bool numbere
 std::string problem_with_name(const std::string& name, const std::vector<const char*>& endings, bool numbered) {
     if (std::string problem = problem_with_file(name); !problem.empty()) return problem;
     if (std::ranges::find(endings, ending_of(name)) == endings.end())
-        return fmt::format("its name must end in {}{}", fmt::join(endings, " or "), absent_ending(name));
+        return fmt::format("its name must end in {}{}", fmt::join(endings, " or "), absent(ending_of(name)));
     if (numbered) return problem_with_numbering(name);
     return name.find('#') == std::string::npos
                ? ""

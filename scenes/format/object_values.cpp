@@ -79,7 +79,7 @@ std::optional<std::size_t> ObjectReader::keyword_value(const Node& node, std::st
     }
     const auto found = std::ranges::find(words, node.text);
     if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
-    const std::string remedy = absent_value(path(key), node.text);
+    const std::string remedy = absent(fmt::format("{}={}", key.substr(key.rfind('.') + 1), node.text));
     reject_value(node, key, " is unknown{}", remedy.empty() ? suggestion_or_list(node.text, words) : remedy);
     return std::nullopt;
 }

@@ -147,7 +147,7 @@ UnitText factor_in(std::string_view text, const Dimension* expected) {
     if (symbol.empty()) return no_unit(fmt::format("{} is not a unit", in_quotes(text)));
     const auto base = named(symbol);
     if (!base) {
-        const std::string remedy = absent_unit(symbol);
+        const std::string remedy = absent(symbol);
         return no_unit(fmt::format("unknown unit {}{}", in_quotes(symbol),
                                    remedy.empty() ? suggestion(symbol, symbols_of(expected)) : remedy));
     }
