@@ -3,8 +3,8 @@
 
 #include "output/files/atomic_file.hpp"
 #include "output/film/palette.hpp"
+#include "output/film/pixel_layout.hpp"
 #include "output/film/video.hpp"
-#include "output/film/yuv.hpp"
 #include "tests/output/scratch.hpp"
 
 namespace beamcam::output {
@@ -172,7 +172,7 @@ TEST(Yuva, TenBitsAreFourTimesTheLevelsOfEight) {
         to.plane[i] = reinterpret_cast<std::uint8_t*>(planes[i].data());
         to.stride[i] = 4;
     }
-    convert_to_yuva444p10(image, to, all_tiles(image));
+    convert(image, PixelLayout::yuva444p10, nullptr, to, all_tiles(image));
     EXPECT_EQ(planes[0][0], 940);
     EXPECT_EQ(planes[0][1], 64);
     for (std::size_t i = 0; i < 4; ++i) {

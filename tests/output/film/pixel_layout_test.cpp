@@ -1,4 +1,4 @@
-#include "output/film/yuv.hpp"
+#include "output/film/pixel_layout.hpp"
 
 #include <cmath>
 
@@ -15,9 +15,9 @@ Yuv converted(const render::Image& image) {
     const std::size_t width = static_cast<std::size_t>(image.width), height = static_cast<std::size_t>(image.height);
     Yuv yuv{std::vector<std::uint8_t>(width * height), std::vector<std::uint8_t>(width * height / 4),
             std::vector<std::uint8_t>(width * height / 4)};
-    convert_to_yuv420(image,
-                      {{yuv.y.data(), yuv.cb.data(), yuv.cr.data()}, {image.width, image.width / 2, image.width / 2}},
-                      all_tiles(image));
+    convert(image, PixelLayout::yuv420, nullptr,
+            {{yuv.y.data(), yuv.cb.data(), yuv.cr.data()}, {image.width, image.width / 2, image.width / 2}},
+            all_tiles(image));
     return yuv;
 }
 
@@ -97,7 +97,7 @@ TEST(Yuv, EveryPixelLandsInItsPlaceAtAnyEvenWidth) {
 TEST(Yuv, RowsOfTheTargetMayBePadded) {
     std::vector<std::uint8_t> y(2 * 40, 7), c(20, 7), d(20, 7);
     const render::Image image = flat_image(4, 2, 0xffffffff);
-    convert_to_yuv420(image, {{y.data(), c.data(), d.data()}, {40, 20, 20}}, all_tiles(image));
+    convert(image, PixelLayout::yuv420, nullptr, {{y.data(), c.data(), d.data()}, {40, 20, 20}}, all_tiles(image));
     EXPECT_EQ(y[3], 235);
     EXPECT_EQ(y[4], 7);
     EXPECT_EQ(y[40], 235);
@@ -107,7 +107,7 @@ TEST(Yuv, RowsOfTheTargetMayBePadded) {
 
 TEST(Yuv, RefusesOddSizes) {
     for (const render::Image& image : {flat_image(3, 2, 0), flat_image(2, 3, 0)})
-        EXPECT_THROW(convert_to_yuv420(image, FramePlanes(), all_tiles(image)), std::logic_error);
+        EXPECT_THROW(convert(image, PixelLayout::yuv420, nullptr, FramePlanes(), all_tiles(image)), std::logic_error);
 }
 
 }  // namespace
