@@ -18,35 +18,46 @@ std::optional<std::pair<std::string, std::string>> file_column_in(std::string_vi
     return std::pair(std::string(text.substr(1, colon - 1)), std::string(text.substr(colon + 1)));
 }
 
+FileColumn column_in_si(const output::ColumnTable& table, const std::string& file, const std::string& column,
+                        const std::string& unit, const std::string& si) {
+    FileColumn out;
+    try {
+        if (const std::vector<double>* found = table.find(column)) out.values = *found;
+    } catch (const output::IoError& error) {
+        return {.problem = error.what()};
+    }
+    const output::TableColumn* found = table.column(column);
+    if (!found)
+        return {.problem = fmt::format("{} has no column {}{}", file, in_quotes(column),
+                                       suggestion_or_list(column, table.names()))};
+    const std::string& stated = unit.empty() ? found->unit : unit;
+    const auto factor = stated.empty() ? std::optional(1.0) : factor_between(stated, si);
+    for (double& value : out.values) value *= factor.value_or(1);
+    out.wrong_unit = !factor;
+    if (!factor && !unit.empty())
+        out.problem = fmt::format("{} is not a unit of the column {}, which is measured in {}", in_quotes(unit),
+                                  in_quotes(column), si);
+    return out;
+}
+
 FileColumn read_file_column(const std::filesystem::path& file, const std::string& column,
                             const sim::Dimension& dimension, const std::string& unit) {
-    FileColumn out;
     try {
         const output::ColumnTable table =
             output::read_columns(file, [&column](const std::string& name) { return name == column; });
-        const std::vector<double>* found = table.find(column);
-        if (!found)
-            return {{},
-                    fmt::format("{} has no column {}{}", file.string(), in_quotes(column),
-                                suggestion_or_list(column, table.names()))};
-        out.values = *found;
+        FileColumn out = column_in_si(table, file.string(), column, unit, si_unit(dimension));
+        if (!out.problem.empty()) return out;
         const auto empty = std::ranges::find_if(out.values, [](double value) { return std::isnan(value); });
         if (empty != out.values.end())
-            return {
-                {},
-                fmt::format("{}, {}: the cell of the column {} is empty", file.string(),
-                            table.row_name(static_cast<std::size_t>(empty - out.values.begin())), in_quotes(column))};
-        const std::string& stated = unit.empty() ? table.column(column)->unit : unit;
-        if (const auto factor = stated.empty() ? std::nullopt : factor_between(stated, si_unit(dimension)))
-            for (double& value : out.values) value *= *factor;
-        else if (!unit.empty())
-            out.problem = fmt::format("{} is not a unit of the column {}, which is measured in {}", in_quotes(unit),
-                                      in_quotes(column), si_unit(dimension));
+            return {.problem = fmt::format("{}, {}: the cell of the column {} is empty", file.string(),
+                                           table.row_name(static_cast<std::size_t>(empty - out.values.begin())),
+                                           in_quotes(column))};
+        if (out.values.empty())
+            out.problem = fmt::format("the column {} of {} is empty", in_quotes(column), file.string());
+        return out;
     } catch (const output::IoError& error) {
-        return {{}, error.what()};
+        return {.problem = error.what()};
     }
-    if (out.values.empty()) out.problem = fmt::format("the column {} of {} is empty", in_quotes(column), file.string());
-    return out;
 }
 
 }  // namespace beamcam::scenes

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "output/data/tables.hpp"
 #include "sim/problem/dimension.hpp"
 
 namespace beamcam::scenes {
@@ -15,12 +16,17 @@ namespace beamcam::scenes {
 // The file and the column; nothing if the text does not begin with @ or has no colon.
 std::optional<std::pair<std::string, std::string>> file_column_in(std::string_view text);
 
-// The numbers of a column, none of them empty, or the reason why there are none.
+// The numbers of a column, or the reason why there are none. They are in SI units if `unit`, or else the file, states a
+// unit that fits to `si`.
 struct FileColumn {
-    std::vector<double> values;
-    std::string problem;
+    std::vector<double> values = {};
+    std::string problem = {};
+    bool wrong_unit = false;  // `unit` is the problem; without a problem that of the file, which is ignored
 };
-// The values are in SI units if `unit`, or else the file, states a unit of this dimension.
+// `file`: its name in messages.
+FileColumn column_in_si(const output::ColumnTable& table, const std::string& file, const std::string& column,
+                        const std::string& unit, const std::string& si);
+// None of the numbers is empty.
 FileColumn read_file_column(const std::filesystem::path& file, const std::string& column,
                             const sim::Dimension& dimension, const std::string& unit);
 

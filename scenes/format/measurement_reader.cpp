@@ -10,6 +10,7 @@
 #include "output/files/digest.hpp"
 #include "render/draw/markup.hpp"
 #include "scenes/format/checks.hpp"
+#include "scenes/format/file_column.hpp"
 #include "scenes/format/suggest.hpp"
 #include "scenes/format/wrapped_angles.hpp"
 #include "sim/beam/drive.hpp"
@@ -92,50 +93,28 @@ class MeasurementReader {
 
     std::string si_unit_of(const sim::Channel& channel) const { return unit(channel, r_.context().scene.problem); }
 
-    // A column in SI units.
+    // A column in SI units, from those that the scene or else the file names.
     std::vector<double> column(const std::string& key, const std::string& from, const std::string& si) {
-        const std::string at = r_.has(key) ? key : "file";
-        try {
-            if (const std::vector<double>* found = table_.find(from)) {
-                std::vector<double> out = *found;
-                const double factor = factor_of(key, *table_.column(from), si);
-                if (factor != 1)
-                    for (double& value : out) value *= factor;
-                return out;
-            }
-            fail(at,
-                 fmt::format("the file has no column {}{}", in_quotes(from), suggestion_or_list(from, table_.names())));
-        } catch (const output::IoError& error) {
-            fail(at, error.what());
-        }
-        return {};
-    }
-
-    // From the unit of a column, which the scene or else the file names, to the SI unit.
-    double factor_of(const std::string& key, const output::TableColumn& column, const std::string& si) {
-        const auto named = std::ranges::find(m_.units, column.name, &std::pair<std::string, std::string>::first);
-        const bool by_scene = named != m_.units.end();
-        const std::string unit = by_scene ? named->second : column.unit;
-        if (unit.empty()) return 1;
-        const std::optional<double> factor = factor_between(unit, si);
-        if (!factor && by_scene)
-            fail("units", fmt::format("{} is not a unit of {}, which is measured in {}", in_quotes(unit), key, si));
-        if (!factor && !by_scene)
+        const auto named = std::ranges::find(m_.units, from, &std::pair<std::string, std::string>::first);
+        const std::string unit = named == m_.units.end() ? "" : named->second;
+        const FileColumn read = column_in_si(table_, "the file", from, unit, si);
+        if (!read.problem.empty())
+            fail(read.wrong_unit ? "units" : r_.has(key) ? key : "file", read.problem);
+        else if (read.wrong_unit)
             r_.warn("file",
                     ": the file states {} for the column {}, which is not a unit of {}; it is read in {} unless "
                     "\"units\" names another",
-                    in_quotes(unit), in_quotes(column.name), key, si.empty() ? "plain numbers" : si);
-        return factor.value_or(1);
+                    in_quotes(table_.column(from)->unit), in_quotes(from), key, si.empty() ? "plain numbers" : si);
+        return read.values;
     }
 
     // An angle that begins again after a turn, as that of an absolute encoder, goes on instead.
     void join_turns(const sim::Channel& channel, const std::string& from, std::vector<double>& values) {
-        const auto jump = first_wrap(values);
+        const auto jump = joined_turns(values);
         if (!jump) return;
         r_.warn(r_.has(name(channel)) ? name(channel) : "file",
                 ": the column {} jumps by {:.4g} deg in {}; it is read as an angle that begins again after 360 deg",
-                in_quotes(from), (values[*jump] - values[*jump - 1]) * 360 / kFullTurn, table_.row_name(*jump));
-        unwrap(values);
+                in_quotes(from), jump->angle * 360 / kFullTurn, table_.row_name(jump->row));
         start_near_motion(channel, values);
     }
 

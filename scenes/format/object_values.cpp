@@ -108,14 +108,11 @@ std::optional<std::vector<double>> ObjectReader::column_value(const Node& node, 
     for (const auto& [name, stated] : columns_.value_or(ColumnsFile{}).units)
         if (name == column.second) own_unit = stated;
     FileColumn read = read_file_column(folder / column.first, column.second, unit.resolved(), own_unit);
-    if (same(unit.resolved(), dimension::kAngle) && first_wrap(read.values)) {
-        unwrap(read.values);
-        if (!columns_)  // the angles of an outline go round once, and may begin anywhere
-            warn(key,
-                 ": the column {} jumps by more than half a turn; it is read as an angle that begins again after "
-                 "360 deg",
-                 in_quotes(column.second));
-    }
+    const bool joined = same(unit.resolved(), dimension::kAngle) && joined_turns(read.values);
+    if (joined && !columns_)  // the angles of an outline go round once, and may begin anywhere
+        warn(key,
+             ": the column {} jumps by more than half a turn; it is read as an angle that begins again after 360 deg",
+             in_quotes(column.second));
     const auto outside = std::ranges::find_if(read.values, [&](double value) { return !range.contains(value); });
     if (check_ranges_ && outside != read.values.end())
         read.problem =

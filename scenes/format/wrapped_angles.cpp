@@ -2,29 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace beamcam::scenes {
 
-std::optional<std::size_t> first_wrap(const std::vector<double>& angles) {
+std::optional<AngleJump> joined_turns(std::vector<double>& angles) {
     constexpr double kRounding = 1e-3;  // of a turn: encoders print few digits
-    std::optional<std::size_t> found;
-    double least = INFINITY, most = -INFINITY, before = NAN;
+    std::optional<AngleJump> first;
+    std::vector<double> joined = angles;
+    double least = INFINITY, most = -INFINITY, before = NAN, turns = 0;
     for (std::size_t i = 0; i < angles.size(); ++i) {
         if (!std::isfinite(angles[i])) continue;
         least = std::min(least, angles[i]), most = std::max(most, angles[i]);
-        if (!found && std::abs(angles[i] - before) > 0.5 * kFullTurn) found = i;
+        const double jump = std::isfinite(before) ? angles[i] - before : 0;
+        if (!first && std::abs(jump) > 0.5 * kFullTurn) first = {i, jump};
+        turns -= std::round(jump / kFullTurn);
+        joined[i] += turns * kFullTurn;
         before = angles[i];
     }
-    return most - least <= (1 + kRounding) * kFullTurn ? found : std::nullopt;
-}
-
-void unwrap(std::vector<double>& angles) {
-    double before = NAN;
-    for (double& angle : angles) {
-        if (!std::isfinite(angle)) continue;
-        if (std::isfinite(before)) angle -= kFullTurn * std::round((angle - before) / kFullTurn);
-        before = angle;
-    }
+    if (most - least > (1 + kRounding) * kFullTurn) first.reset();
+    if (first) angles = std::move(joined);
+    return first;
 }
 
 }  // namespace beamcam::scenes

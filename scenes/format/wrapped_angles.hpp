@@ -11,11 +11,12 @@ namespace beamcam::scenes {
 
 using sim::kFullTurn;
 
-// Index of the first row that is farther than half a turn from the row before; nothing: there is none, or the values
-// span more than a turn, so that they do not wrap. NaN: no value.
-std::optional<std::size_t> first_wrap(const std::vector<double>& angles);
-
-// Adds whole turns so that no row is farther than half a turn from the row before.
-void unwrap(std::vector<double>& angles);
+struct AngleJump {
+    std::size_t row = 0;
+    double angle = 0;  // from the row before [rad]
+};
+// Adds whole turns so that no row is farther than half a turn from the row before, unless the values span more than a
+// turn and so do not wrap. Returns the first jump; nothing: there is none. NaN: no value.
+std::optional<AngleJump> joined_turns(std::vector<double>& angles);
 
 }  // namespace beamcam::scenes

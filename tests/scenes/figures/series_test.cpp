@@ -395,7 +395,7 @@ TEST(Measured, BadFilesAreReportedWithTheirPlace) {
     EXPECT_THAT(report("time,angle\n100,nan\n200,\n"), HasSubstr("the column \"angle\" contains no number"));
     folder.write("rig.csv", "time,angle\n100,45\n");
     EXPECT_THAT(shell(folder, R"(sed 's/"deg"/"mm"/' m.json > n.json; $BEAMCAM check n.json)").err,
-                HasSubstr("\"mm\" is not a unit of theta, which is measured in rad"));
+                HasSubstr("\"mm\" is not a unit of the column \"angle\", which is measured in rad"));
     EXPECT_THAT(shell(folder, R"(mkdir d.csv; sed 's/rig.csv/d.csv/' m.json > n.json; $BEAMCAM check n.json)").err,
                 HasSubstr("not a regular file"));
 }
