@@ -246,7 +246,6 @@ bool shows(const Scene& scene, std::size_t output, const Schema::Leaf& leaf) {
     if (place == "/title" || place.starts_with("/units/")) return !data;
     if (place != "/time/end") return true;
     if (of_sweep) return false;
-    if (const auto* still = picture_of(any, PictureOutput::Kind::still)) return still->at.kind != Instant::Kind::time;
     if (const auto* pictures = std::get_if<PictureOutput>(&any)) return !pictures->span.to;
     if (const auto* table = std::get_if<TrajectoryOutput>(&any)) return table->times.empty();
     if (const auto* figure = std::get_if<FigureOutput>(&any)) return !figure->series.to;

@@ -64,12 +64,11 @@ TEST(Plan, ATableNeedsNeitherPicturesNorOpenGl) {
 
 TEST(Plan, MotionsEndWhereTheLastOutputLooks) {
     const auto end = [](const char* outputs) { return end_of_motions(plan_of(outputs)); };
-    EXPECT_EQ(end(R"([{"type": "still", "at": 0.3}])"), 0.3);
-    EXPECT_EQ(end(R"([{"type": "still", "at": 0.3}, {"type": "trajectory", "times": [0.7]}])"), 0.7);
+    EXPECT_EQ(end(R"([{"type": "still", "at": 0.3}])"), 1.5);  // its scales are those of the scene
+    EXPECT_EQ(end(R"([{"type": "video", "to": 0.5}, {"type": "trajectory", "times": [0.7]}])"), 0.7);
     EXPECT_EQ(end(R"([{"type": "video", "to": 0.5}])"), 0.5);
-    EXPECT_EQ(end(R"([{"type": "still", "at": 0.3}, {"type": "impacts"}])"), 1.5);
+    EXPECT_EQ(end(R"([{"type": "video", "to": 0.5}, {"type": "impacts"}])"), 1.5);
     EXPECT_EQ(end(R"([{"type": "trajectory", "times": [2.5]}])"), 2.5);
-    EXPECT_EQ(end(R"([{"type": "still", "at": 0}])"), 0);
 }
 
 // Impacts are those of the whole run.
@@ -166,7 +165,7 @@ trajectory  scene.csv: 1 row
 
 TEST(PlanText, AFlatStillOfTheStart) {
     EXPECT_EQ(text_of(R"({"outputs": [{"type": "still", "at": 0, "view": {"style": "flat"}, "size": [800, 600]}]})"),
-              R"(motion      first-order, 2 modes: until 0 s
+              R"(motion      first-order, 2 modes: until 1.5 s
 still       scene.png
 )");
 }
@@ -238,19 +237,18 @@ TEST(PlanText, MotionsThatPicturesCompareAreSimulatedOnce) {
          "compare": [{"label": "slow"}, {"label": "fast", "set": {"cam.speed": 5}}]},
         {"type": "still", "file": "b.png", "at": 0.4, "view": {"style": "flat"},
          "compare": [{"label": "slow"}, {"label": "fast", "set": {"cam.speed": 5}}]}]})"),
-              R"(motion      first-order, 2 modes: until 0.4 s, "slow"
-motion      first-order, 2 modes: until 0.4 s, "fast"
+              R"(motion      first-order, 2 modes: until 1.5 s, "slow"
+motion      first-order, 2 modes: until 1.5 s, "fast"
 still       a.png
 still       b.png
 )");
 }
 
 TEST(Plan, PicturesThatEndBeforeTheRunReportOnlyTheirPart) {
-    const Plan p = plan_of(
-        R"([{"type": "video", "file": "a.mp4", "to": 0.5}, {"type": "video", "file": "b.mp4"}, {"type": "still", "at": 0.5}])");
+    const Plan p = plan_of(R"([{"type": "video", "file": "a.mp4", "to": 0.5}, {"type": "video", "file": "b.mp4"}])");
     std::vector<double> ends;
     for (const MotionRequest& each : p.motions) ends.push_back(each.request.end_time);
-    EXPECT_THAT(ends, ElementsAre(0.5, 1.5, 0.5));
+    EXPECT_THAT(ends, ElementsAre(0.5, 1.5));
 }
 
 }  // namespace
