@@ -23,6 +23,7 @@ constexpr double kShortestTouchEver = 1e-11;                       // [s] no con
 constexpr int kMostSweeps = 12;  // in flight: at a contraction of a half a step half as long is cheaper
 // Changes of the iteration that no longer fall are rounding once they are below this share of the largest.
 constexpr double kFlightRounding = 1e-12;
+constexpr int kFlightPatience = 1;  // a damper at the hub answers to the first change of the vibration
 // [–] of the period of the fastest mode over 2π: where collocation of a constraint needs shorter steps, rounding rules.
 constexpr double kShortestHeld = 1e-5;
 constexpr double kStiff = 1;  // damping ratio above which stability limits explicit steps: BDF is used
@@ -35,7 +36,7 @@ constexpr long kFirstRetry = 32;  // steps of the other method before the next t
 double solve_flight(NodalStep& step, const StepTable& table) {
     step.begin_attempt(table.h);
     step.propagate_unforced(table);
-    FixedPoint iteration(kFlightRounding, kStalled, 0);
+    FixedPoint iteration(kFlightRounding, kStalled, kFlightPatience);
     auto status = FixedPoint::Status::going;
     for (int sweep = 0; sweep < kMostSweeps && status == FixedPoint::Status::going; ++sweep) {
         step.propagate(table);
@@ -54,7 +55,7 @@ class Exponential final : public Integrator {
   public:
     Exponential(System& system, double rtol, double atol)
         : system_(system),
-          step_(system, ModalForm::of(system), rtol, atol, counters.rhs),
+          step_(system, ModalForm::of(system), rtol, atol, counters.rhs_evaluations),
           tables_(step_.form->oscillators),
           rtol_(rtol),
           atol_(atol),
@@ -133,7 +134,7 @@ class Exponential final : public Integrator {
         if (!other_)
             other_ = stiff_ ? make_sundials(Method::cvode_bdf, system_, kShareOfBdf * rtol_, kShareOfBdf * atol_)
                             : make_rk8(system_, rtol_, atol_);
-        counters.fallback = stiff_ ? Method::cvode_bdf : Method::rk8;
+        fallback = stiff_ ? Method::cvode_bdf : Method::rk8;
         other_->limit_first_step(first);
         other_->stop_at(stop_);
         other_->start(t, y);
@@ -146,12 +147,8 @@ class Exponential final : public Integrator {
         return segment;
     }
     void count() {
-        const IntegratorCounters& now = other_->counters;
-        counters.steps += now.steps - seen_.steps;
-        counters.fallback_steps += now.steps - seen_.steps;
-        counters.rejected += now.rejected - seen_.rejected;
-        counters.rhs += now.rhs - seen_.rhs;
-        seen_ = now;
+        fallback_steps += other_->counters.steps;
+        counters += std::exchange(other_->counters, {});
     }
 
     // The longest step of flight from here: on the ladder, or shorter where the first step or the rest of the interval
@@ -294,7 +291,6 @@ class Exponential final : public Integrator {
     const double rtol_, atol_;
     const bool stiff_;                   // a mode is damped beyond the critical
     std::unique_ptr<Integrator> other_;  // the method that takes over, made when it is first needed
-    IntegratorCounters seen_;            // of it, counted so far
     bool falling_back_ = true, touching_ = false;
     double t_ = 0;
     int flight_level_ = kFirstFlightLevel, touch_level_ = kFirstTouchLevel;

@@ -54,10 +54,19 @@ inline const char* step_failure_reason(bool finite) {
                   : "the forces grow beyond all numbers, however short the steps";
 }
 
-struct IntegratorCounters {
-    long steps = 0, rejected = 0, rhs = 0, jacobians = 0;
-    long fallback_steps = 0;  // of another method, to which this one left phases
-    Method fallback = Method::rk8;
+// The work of an integration.
+struct Counters {
+    long steps = 0;  // accepted
+    long rejected = 0;
+    long rhs_evaluations = 0;
+    long gap_evaluations = 0;
+
+    void operator+=(const Counters& more) {
+        steps += more.steps;
+        rejected += more.rejected;
+        rhs_evaluations += more.rhs_evaluations;
+        gap_evaluations += more.gap_evaluations;
+    }
 };
 
 class Integrator {
@@ -75,7 +84,10 @@ class Integrator {
     // keeps to the tolerance.
     virtual const Segment& shorten(double t1) = 0;
 
-    IntegratorCounters counters;
+    Counters counters;
+    // Those of the steps that are of another method, to which this one left phases.
+    long fallback_steps = 0;
+    Method fallback = Method::rk8;
 
   protected:
     // Applies the limit of the first step, and clears it.

@@ -1,6 +1,17 @@
 #include "sim/integrate/nodal_compliance.hpp"
 
+#include <Eigen/LU>
+
 namespace beamcam::sim {
+
+bool solve_dense(const NodalMatrix& a, std::span<Lanes> b) {
+    using Square = Eigen::Matrix<double, kNodes, kNodes>;
+    Eigen::Map<Eigen::Matrix<double, kNodes, Eigen::Dynamic>> x(&b[0][0], kNodes, static_cast<Eigen::Index>(b.size()));
+    x = Eigen::PartialPivLU<Square>(Eigen::Map<const Square>(reinterpret_cast<const double*>(a.data())))
+            .solve(x)
+            .eval();
+    return x.allFinite();
+}
 
 NodalCompliance nodal_compliance(const StepTable& table, double mass, double hub, const std::vector<double>& a,
                                  const std::vector<double>& b) {

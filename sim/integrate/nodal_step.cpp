@@ -20,7 +20,8 @@ NodalStep::NodalStep(System& of, std::shared_ptr<const ModalForm> modal_form, do
       base_v_(n),
       bq_(n),
       gq_(n),
-      start_(next.size()) {
+      start_(next.size()),
+      start_rate_(form->damped ? next.size() : 0) {
     if (form->by_arrays()) return;
     inertia_ = std::make_unique<InertiaForces>(system.problem());
     for (auto* v : {&position_, &rate_, &coordinate_acceleration_, &forces_}) v->resize(n + 1);
@@ -42,6 +43,12 @@ void NodalStep::begin(double t) {
     theta_dot0 = y[1 + n];
     s.p0 = form->prescribed ? 0 : theta_dot0 * s.inertia(y + 1);
     set_scales(y, y);
+    if (!form->damped) return;
+    system.rhs(t, s.end.data(), start_rate_.data());
+    form->to_modes(start_rate_.data());
+    inertia_rate_ = 0;
+    for (std::size_t i = 0; i < form->inertia.size(); ++i)
+        inertia_rate_ += 2 * s.v0[i / n] * form->inertia[i] * s.q0[i % n];
 }
 
 void NodalStep::propagate_rates(const StepTable& table) {
@@ -251,6 +258,29 @@ double NodalStep::drive_error(double h) const {
            (rtol_ * (std::fabs(weight) + form->J * rate * rate) + atol_);
 }
 
+// A vibration that decays before the first node changes the forcing at the start only. What the polynomial through the
+// nodal values misses there, beyond its last coefficients, lasts up to the first node.
+double NodalStep::start_error(double h) const {
+    const Collocation& gauss = Collocation::get();
+    const auto missed = [&](double start, const Lanes& nodal) {
+        return std::max(0.0, std::fabs(start - sum(gauss.derive[0][0] * nodal)) - legendre_decay(nodal).last);
+    };
+    double slowest = kNoSolution;
+    for (const Oscillator& o : form->oscillators) slowest = std::min(slowest, o.gamma);
+    const double span = std::min(gauss.c[0] * h, 1 / slowest), *rate = start_rate_.data() + 1 + n;
+    double errors = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const Oscillator& o = form->oscillators[i];
+        const double f = rate[1 + i] + 2 * o.gamma * segment.v0[i] + o.omega * o.omega * segment.q0[i];
+        const double e = missed(f, segment.f[i]) * std::min(span, 1 / o.omega);
+        errors += e * e;
+    }
+    const double modal = std::sqrt(errors) / scale_modes;
+    if (form->prescribed) return modal;
+    const double p_dot = rate[0] * segment.inertia(start_.data() + 1) + theta_dot0 * inertia_rate_;
+    return std::max(modal, missed(p_dot, segment.p_dot) * span / form->J / scale_theta_dot);
+}
+
 double NodalStep::forcing_error(double h, const ContactLoad* load) {
     const ExponentialSegment& s = segment;
     set_scales(start_.data(), next.data());
@@ -260,7 +290,7 @@ double NodalStep::forcing_error(double h, const ContactLoad* load) {
         const double e = interpolation_error(f) * std::min(h, 1 / form->oscillators[i].omega);
         errors += e * e;
     }
-    const double modal = std::sqrt(errors) / scale_modes;
+    const double modal = std::max(std::sqrt(errors) / scale_modes, form->damped ? start_error(h) : 0);
     if (form->prescribed) return std::max(modal, drive_error(h));
     const double torque_error = interpolation_error(load ? s.p_dot - load->torque() : s.p_dot) * h / form->J;
     // The contact turns Θ̇ by a polynomial of the degree of its force, whose error is that of the force.

@@ -115,7 +115,7 @@ class Rk8 final : public Integrator, private Segment {
 
     void evaluate(double t, const double* y, double* dy) {
         ode_.rhs(t, y, dy);
-        ++counters.rhs;
+        ++counters.rhs_evaluations;
     }
 
     void stage(int index, double h) {
@@ -159,9 +159,9 @@ class Rk8 final : public Integrator, private Segment {
         dense_built_ = true;
         const double h = t1 - t0;
         // Not counted: the work of a motion must not depend on who evaluates it inside its steps.
-        const long counted = counters.rhs;
+        const long counted = counters.rhs_evaluations;
         for (int i = 13; i < kAllStages; ++i) stage(i, h);
-        counters.rhs = counted;
+        counters.rhs_evaluations = counted;
         for (std::size_t i = 0; i < n_; ++i) {
             const double difference = end_[i] - y_[i], bend = h * k_[0][i] - difference;
             dense_[i] = difference;

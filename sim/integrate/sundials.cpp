@@ -212,19 +212,17 @@ class Cvode final : public Integrator, private Segment {
     }
 
     void count() {
-        IntegratorCounters now;
+        Counters now;
         CVodeGetNumSteps(memory_.get(), &now.steps);
         CVodeGetNumErrTestFails(memory_.get(), &now.rejected);
-        CVodeGetNumRhsEvals(memory_.get(), &now.rhs);
+        CVodeGetNumRhsEvals(memory_.get(), &now.rhs_evaluations);
         if (bdf_) {
             long linear = 0;
-            CVodeGetNumJacEvals(memory_.get(), &now.jacobians);
             CVodeGetNumLinRhsEvals(memory_.get(), &linear);
-            now.rhs += linear;
+            now.rhs_evaluations += linear;
         }
         // CVODE's counts restart at zero with it.
-        for (const auto each : {&IntegratorCounters::steps, &IntegratorCounters::rhs, &IntegratorCounters::rejected,
-                                &IntegratorCounters::jacobians})
+        for (const auto each : {&Counters::steps, &Counters::rejected, &Counters::rhs_evaluations})
             counters.*each += now.*each >= last_.*each ? now.*each - last_.*each : now.*each;
         last_ = now;
     }
@@ -239,7 +237,7 @@ class Cvode final : public Integrator, private Segment {
     Owned<SUNNonlinearSolver, SUNNonlinSolFree> nonlinear_;
     std::unique_ptr<void, FreeMemory> memory_;  // uses all of these
     std::vector<double> end_, polynomial_;
-    IntegratorCounters last_;
+    Counters last_;
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/integrate/integrator.hpp"
 #include "sim/observe/channels.hpp"
 #include "sim/observe/pose.hpp"
 
@@ -68,14 +69,6 @@ struct Extremum {
 struct Interval {
     double from = 0;
     std::optional<double> to;
-};
-
-struct Counters {
-    long steps = 0;  // accepted
-    long rejected = 0;
-    long rhs_evaluations = 0;
-    long gap_evaluations = 0;
-    long jacobians = 0;
 };
 
 struct Result {

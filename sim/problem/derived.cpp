@@ -39,7 +39,8 @@ double contact_exponent(const Problem& problem) {
 }
 
 double contact_stiffness(const Problem& problem) {
-    if (problem.contact.stiffness || !problem.cam) return problem.contact.stiffness.value_or(0);
+    const double factor = problem.contact.stiffness_factor;
+    if (problem.contact.stiffness || !problem.cam) return factor * problem.contact.stiffness.value_or(0);
     const Cam& cam = *problem.cam;
     const MaterialProperties beam = material_properties(problem.beam);
     const MaterialProperties disc =
@@ -48,7 +49,7 @@ double contact_stiffness(const Problem& problem) {
     const auto compliance = [](const MaterialProperties& of) {
         return (1 - of.poisson_ratio * of.poisson_ratio) / of.youngs_modulus;
     };
-    const double modulus = 1 / (compliance(beam) + compliance(disc));
+    const double modulus = factor / (compliance(beam) + compliance(disc));
     if (is_line_contact(problem))
         return modulus * std::pow(std::get<Rectangle>(*problem.beam.section).width, 2 - kLineExponent) /
                std::pow(kPalmgrenFactor, kLineExponent);  // (S29a)

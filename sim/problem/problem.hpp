@@ -244,6 +244,7 @@ struct ApproachFloor {
 struct Contact {
     ContactModel model = ContactModel::compliant;
     std::optional<double> stiffness = 1e8;  // K [N/m^n], > 0; absent: Hertz's (S29)
+    double stiffness_factor = 1;            // of either, > 0; no key of scenes: studies vary it
     std::optional<double> exponent;         // n [–], 1…2; absent: contact_exponent
     DampingLaw damping = DampingLaw::lankarani_nikravesh;
     double restitution = 0.7;           // c_r [–], 0…1

@@ -243,16 +243,12 @@ void Run::report(double t) const {
 
 RunStatistics Run::statistics() const {
     RunStatistics all = state_.statistics;
-    const IntegratorCounters& done = integrator_->counters;
-    all.counters = {.steps = done.steps,
-                    .rejected = done.rejected,
-                    .rhs_evaluations = done.rhs,
-                    .gap_evaluations = dynamics_.gap_evaluations + probe_.system.gap_evaluations,
-                    .jacobians = done.jacobians};
+    all.counters = integrator_->counters;
+    all.counters.gap_evaluations = dynamics_.gap_evaluations + probe_.system.gap_evaluations;
     all.method = method_;
     all.fallbacks.coarse = probe_.coarse;
-    all.fallbacks.steps = done.fallback_steps;
-    all.fallbacks.method = done.fallback;
+    all.fallbacks.steps = integrator_->fallback_steps;
+    all.fallbacks.method = integrator_->fallback;
     return all;
 }
 

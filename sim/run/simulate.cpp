@@ -89,11 +89,7 @@ SolverError::SolverError(const std::string& what, double last_good_time, std::ve
 
 void Effort::add(const Counters& counters) {
     if (counters.steps > 0) ++integrations;  // without steps, only the initial state was evaluated
-    spent.steps += counters.steps;
-    spent.rejected += counters.rejected;
-    spent.rhs_evaluations += counters.rhs_evaluations;
-    spent.gap_evaluations += counters.gap_evaluations;
-    spent.jacobians += counters.jacobians;
+    spent += counters;
 }
 
 void Effort::add(const Effort& more) {

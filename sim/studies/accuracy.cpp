@@ -195,8 +195,7 @@ class Assessment {
         };
         Problem variant = problem_;
         if (problem_.contact.model == ContactModel::compliant) {
-            variant.contact.exponent = contact_exponent(problem_);
-            variant.contact.stiffness = 1.01 * contact_stiffness(problem_);
+            variant.contact.stiffness_factor = 1.01;
             add("stiffness +1 %", variant);
             variant = problem_;
         }

@@ -48,8 +48,7 @@ std::vector<Variant> variants_of(const Problem& problem) {
     if (problem.contact.model == ContactModel::compliant)
         for (const double factor : {1 / kStiffnesses, kStiffnesses}) {
             Variant& variant = all.emplace_back(Variant{fmt::format("stiffness × {:g}", factor), problem});
-            variant.problem.contact.exponent = contact_exponent(problem);
-            variant.problem.contact.stiffness = factor * contact_stiffness(problem);
+            variant.problem.contact.stiffness_factor = factor;
         }
     const double c = problem.contact.restitution, other = c > 0.5 ? c - kRestitutions : c + kRestitutions;
     Variant& variant = all.emplace_back(Variant{fmt::format("restitution {:g}", other), problem});

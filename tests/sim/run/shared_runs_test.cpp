@@ -50,7 +50,7 @@ Bits bits_of(const Result& r) {
     Collector put;
     put(r.end_time), put(r.energy_residual_max), put(r.energy_scale), put(r.reproducible_until);
     put(r.counters.steps), put(r.counters.rejected), put(r.counters.rhs_evaluations);
-    put(r.counters.gap_evaluations), put(r.counters.jacobians);
+    put(r.counters.gap_evaluations);
     for (const Table& table : r.tables)
         for (const auto& column : table.values)
             for (double value : column) put(value);
