@@ -178,7 +178,8 @@ void require_units(const std::string& option, const std::vector<std::string>& va
         return text.find_last_not_of(" 0123456789.eE+-") == std::string::npos;
     };
     const auto lacks_unit = [&](const std::string& text) { return is_plain(text) && text != "0"; };
-    if (std::ranges::any_of(values, lacks_unit) && !std::ranges::all_of(values, is_plain))
+    const auto has_unit = [&](const std::string& text) { return !is_plain(text) && parse_quantity(text).quantity; };
+    if (std::ranges::any_of(values, lacks_unit) && std::ranges::any_of(values, has_unit))
         throw UsageError(fmt::format(
             "{}: some of its numbers have a unit; write it with each of them, as in 100rpm:900rpm:9", option));
 }

@@ -116,7 +116,7 @@ void ObjectReader::numbers(const Key& key, std::vector<double>& values, const Un
     if (!read) return;
     if (fixed && read->size() != length.min)
         return reject(key.name, " must have {} numbers, not {}", length.min, read->size());
-    if (check_ranges_ && read->size() < length.min) return reject(key.name, " is empty; write at least one number");
+    if (read->size() < length.min) return reject(key.name, " is empty; write at least one number");
     for (std::size_t i = 0; i < read->size(); ++i)
         if (!range.contains((*read)[i])) ranged_value(node->items[i], fmt::format("{}.{}", key.name, i), unit, range);
     values = *read;

@@ -142,7 +142,7 @@ static void visit(Visitor& v, Beam& beam) {
     v.choice("basis", beam.basis,
              "Shape functions; auto: cantilever for a prescribed drive and for the model paper, else hub-beam.");
     v.integer("modes", beam.modes, 1, 40, "Number N of shape functions.");
-    v.numbers("damping_ratio", beam.damping_ratio, dim::kNone, kNotNegative, {.or_one_number = true},
+    v.numbers("damping_ratio", beam.damping_ratio, dim::kNone, kNotNegative, {.min = 1, .or_one_number = true},
               "Modal damping ratio ζ: one number for all modes, or one for each mode; by default none. Excludes "
               "kelvin_voigt.");
     v.number("kelvin_voigt", beam.kelvin_voigt, dim::kTime, kNotNegative,
