@@ -14,12 +14,10 @@ constexpr double kSignRounding = 1e-14;  // of the largest sample: values below 
 // between samples on one side of it. Values below rounding of the samples are zero at the start of the motion: no
 // earlier step determines the sign of a start from rest.
 std::vector<Vec2> points_of(StepSamples& step, const SegmentInterval& s, Channel channel, double level) {
-    step.begin(s);
-    const Channel one[] = {channel};
-    const StepSamples::Series series =
-        step.sample(one, [&](std::size_t, double low, double high,
-                             double stray) { return low - stray < level && level < high + stray; })
-            .front();
+    const auto may_pass = [&](std::size_t, double low, double high, double stray) {
+        return low - stray < level && level < high + stray;
+    };
+    const StepSamples::Series series = step.sample(s, {&channel, 1}, may_pass).front();
     std::vector<Vec2> points;
     double largest = std::fabs(level);
     for (std::size_t k = 0; k < series.t.size(); ++k) {

@@ -6,12 +6,6 @@
 
 namespace beamcam::sim {
 
-// The largest values in the present impact.
-struct ImpactPeaks {
-    decltype(Impact::force_peak) force{}, t_force{};  // [N], [s]
-    double penetration = 0;                           // [m]
-};
-
 class ImpactRecorder {
   public:
     ImpactRecorder(ChannelEvaluator& evaluator, Result& result) : evaluator_(evaluator), result_(result) {}

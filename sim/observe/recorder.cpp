@@ -33,17 +33,13 @@ Recorder::Recorder(const System& system, const Request& request, std::function<R
       statistics_(std::move(statistics)),
       end_(end_of(request)),
       evaluator_(system),
+      step_(evaluator_),
       samples_(request, evaluator_, result_),
       impacts_(evaluator_, result_),
-      extrema_(std::make_unique<ExtremaFinder>(system, request.extrema)),
       y_(static_cast<std::size_t>(system.size)) {
-    if (request.bends && system.problem().beam.model != ModelKind::rigid)
-        bends_ = std::make_unique<ExtremaFinder>(system, std::vector<Channel>{{ChannelKind::tip_deflection}});
     result_.states.resize(request.states.size());
     result_.extrema.assign(request.extrema.size(), kNoValue);
 }
-
-Recorder::~Recorder() = default;
 
 namespace {
 
@@ -57,7 +53,7 @@ struct PointSegment final : Segment {
 }  // namespace
 
 void Recorder::resume(double t, const std::vector<double>& y, const Phase& phase) {
-    set_phase(phase);
+    evaluator_.set_phase(phase);
     if (!start_total_) begin(y.data());
     if (end_ > t && !has_enough()) return;
     const PointSegment point(t, y);
@@ -72,7 +68,6 @@ void Recorder::begin(const double* y) {
     const Problem& problem = evaluator_.system().problem();
     const double lever = problem.hub.radius + 0.5 * problem.beam.length;
     result_.energy_scale = std::fabs(problem.beam.line_density() * problem.beam.length * problem.gravity * lever);
-    extrema_->set_start_energy(*start_total_);
     note_balance();
 }
 
@@ -80,12 +75,6 @@ bool Recorder::has_enough() const {
     const std::optional<EventCounts>& enough = request_.enough;
     return enough && result_.impacts.size() >= enough->touches && impacts_.releases() >= enough->releases &&
            result_.collisions.size() >= enough->collisions;
-}
-
-void Recorder::set_phase(const Phase& phase) {
-    evaluator_.set_phase(phase);
-    extrema_->set_phase(phase);
-    if (bends_) bends_->set_phase(phase);
 }
 
 void Recorder::step(const SegmentInterval& s) {
@@ -103,12 +92,11 @@ void Recorder::record(const SegmentInterval& s) {
     if (impacts_.open()) samples_.contact_step(s);
     record_balance(s);
     if (!lasts) return;
-    StepSamples& step = extrema_->samples();
-    if (request_.apexes) find_apexes(step, s, result_.apexes);
-    if (request_.zero_crossings) find_zero_crossings(step, s, result_.theta_zero);
-    if (Impact* impact = impacts_.open()) find_peaks(s, *impact);
-    extrema_->step(s, result_.extrema);
-    if (bends_ && !result_.collisions.empty()) find_bend(s);
+    if (request_.apexes) find_apexes(step_, s, result_.apexes);
+    if (request_.zero_crossings) find_zero_crossings(step_, s, result_.theta_zero);
+    if (request_.impact_peaks && impacts_.open()) raise_peaks(step_, s, *impacts_.open());
+    raise_extrema(step_, s, request_.extrema, result_.extrema);
+    if (request_.bends && !result_.collisions.empty()) find_bend(s);
 }
 
 void Recorder::take_states(const SegmentInterval& s) {
@@ -121,17 +109,11 @@ void Recorder::take_states(const SegmentInterval& s) {
     }
 }
 
-void Recorder::find_peaks(const SegmentInterval& s, Impact& impact) {
-    if (!request_.impact_peaks) return;
-    extrema_->contact_peaks(s, peaks_);
-    impact.force_peak = peaks_.force, impact.t_peak = peaks_.t_force;
-    impact.penetration_peak = peaks_.penetration;
-}
-
 void Recorder::find_bend(const SegmentInterval& s) {
-    bends_->step(s, bend_);
-    if (const Extremum& e = bend_.front(); e.max > e.min)
-        result_.collisions.back().t_bend = e.max >= -e.min ? e.t_max : e.t_min;
+    if (evaluator_.system().coordinates() == 1) return;
+    constexpr Channel kTip{ChannelKind::tip_deflection};
+    raise_extrema(step_, s, {&kTip, 1}, {&bend_, 1});
+    if (bend_.max > bend_.min) result_.collisions.back().t_bend = bend_.max >= -bend_.min ? bend_.t_max : bend_.t_min;
 }
 
 void Recorder::note_balance() {
@@ -163,11 +145,10 @@ void Recorder::event(ContactEvent event, double t, const std::vector<double>& y,
 void Recorder::touch(double t, const double* y, const ContactState& contact) {
     const std::size_t before = result_.collisions.size();
     impacts_.touch(t, y, contact);
-    if (result_.collisions.size() > before) bend_ = {kNoValue};
+    if (result_.collisions.size() > before) bend_ = kNoValue;
     samples_.begin_contact();
-    Impact& impact = *impacts_.open();
-    peaks_ = {impact.force_peak, impact.t_peak, impact.penetration_peak};
     if (request_.impact_peaks) return;
+    Impact& impact = *impacts_.open();
     impact.force_peak.reset(), impact.t_peak.reset();
     impact.penetration_peak = kNan;
 }

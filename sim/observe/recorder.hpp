@@ -3,7 +3,6 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -11,17 +10,15 @@
 #include "sim/observe/observer.hpp"
 #include "sim/observe/run_statistics.hpp"
 #include "sim/observe/samples.hpp"
+#include "sim/observe/step_samples.hpp"
 
 namespace beamcam::sim {
-
-class ExtremaFinder;
 
 class Recorder final : public Observer {
   public:
     // `statistics` returns the counts of the run so far.
     Recorder(const System& system, const Request& request, std::function<RunStatistics()> statistics);
     Recorder(const Recorder&) = delete;  // its parts refer to each other
-    ~Recorder() override;
     Recorder& operator=(const Recorder&) = delete;
 
     double end() const override { return end_; }
@@ -36,11 +33,9 @@ class Recorder final : public Observer {
 
   private:
     void begin(const double* y);
-    void set_phase(const Phase& phase);
     void record(const SegmentInterval& s);
     bool has_enough() const;  // events, where the request limits their number
     void take_states(const SegmentInterval& s);
-    void find_peaks(const SegmentInterval& s, Impact& impact);
     void find_bend(const SegmentInterval& s);  // of the present collision
     void record_balance(const SegmentInterval& s);
     void note_balance();
@@ -51,11 +46,10 @@ class Recorder final : public Observer {
     const double end_;
     Result result_;
     ChannelEvaluator evaluator_;
+    StepSamples step_;
     SampleRecorder samples_;
     ImpactRecorder impacts_;
-    std::unique_ptr<ExtremaFinder> extrema_, bends_;  // bends_: null unless requested
-    std::vector<Extremum> bend_;                      // of the tip's deflection since the last collision began
-    ImpactPeaks peaks_;                               // of the present impact
+    Extremum bend_;  // of the tip's deflection since the last collision began
     std::vector<double> y_;
     std::optional<double> start_total_;  // of the energies at the start [J]; absent until it begins
     double largest_elastic_ = 0;         // bending energy [J]

@@ -38,8 +38,8 @@ struct StepSamples::Needs {
     bool squared = false;  // it vibrates twice as fast as the beam
 };
 
-StepSamples::StepSamples(const System& system)
-    : evaluator_(system), probe_(evaluator_.system()), y_(static_cast<std::size_t>(system.size)) {
+StepSamples::StepSamples(ChannelEvaluator& evaluator)
+    : evaluator_(evaluator), probe_(evaluator.system()), y_(static_cast<std::size_t>(evaluator.system().size)) {
     find_modes();
 }
 
@@ -65,8 +65,6 @@ void StepSamples::find_modes() {
     for (Eigen::Index i = 0; i < n; ++i)
         for (Eigen::Index j = 0; j < n; ++j) to_modes_.push_back(natural.inverse(i + 1, j + 1));
 }
-
-void StepSamples::begin(const SegmentInterval& s) { step_ = s; }
 
 // Twice the kinetic energy of each mode per mass of the beam; or its whole energy at the start of a motion, which may
 // rest far from equilibrium. Later the deflection follows the forcing without vibration.
@@ -140,8 +138,9 @@ const TouchSamples* StepSamples::touch_at(const Instants& part) const {
     return touch && touch->t[0] == part.front() && touch->t[kCount - 1] == part.back() ? touch : nullptr;
 }
 
-const std::vector<StepSamples::Series>& StepSamples::sample(std::span<const Channel> channels,
+const std::vector<StepSamples::Series>& StepSamples::sample(const SegmentInterval& s, std::span<const Channel> channels,
                                                             const NeedsMore& needs_more, const See& see) {
+    step_ = s;
     channels_.assign(channels.begin(), channels.end());
     series_.resize(channels.size());
     nodes_.resize(channels.size());

@@ -26,16 +26,12 @@ class StepSamples {
     // Receives every sample at the ends and nodes before it is decided whether more are needed.
     using See = std::function<void(std::size_t channel, double t, double value)>;
 
-    explicit StepSamples(const System& system);
-    void set_phase(const Phase& phase) { evaluator_.set_phase(phase); }
-    void set_start_energy(double total) { evaluator_.set_start_energy(total); }
+    explicit StepSamples(ChannelEvaluator& evaluator);  // must outlive it
 
-    // The other calls concern this step; their results do not depend on those for earlier steps.
-    void begin(const SegmentInterval& s);
-    // One series for each channel, valid until the next call.
-    const std::vector<Series>& sample(std::span<const Channel> channels, const NeedsMore& needs_more,
-                                      const See& see = {});
-    double value(Channel channel, double t);
+    // One series for each channel, valid until the next call. The result does not depend on earlier steps.
+    const std::vector<Series>& sample(const SegmentInterval& s, std::span<const Channel> channels,
+                                      const NeedsMore& needs_more, const See& see = {});
+    double value(Channel channel, double t);  // in the step that was sampled last
 
   private:
     static constexpr std::size_t kCount = kNodes + 2;  // both ends and the Gauss nodes
@@ -60,7 +56,7 @@ class StepSamples {
     void place_contact(double t);
     double read(Channel channel, double t);
 
-    ChannelEvaluator evaluator_;
+    ChannelEvaluator& evaluator_;
     GapProbe probe_;
     std::vector<Mode> modes_;
     double fastest_decay_ = 0;

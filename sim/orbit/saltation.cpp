@@ -26,8 +26,8 @@ void seed_column(JetState& s, int direction, const double* column, const double*
 
 }  // namespace
 
-Saltation::Saltation(const System& system, ModalJets& jets, const Eigen::VectorXd& units)
-    : probe_(system), jets_(jets), units_(units), n_(probe_.coordinates()), rows_(2 * n_ + kTangentMemories) {}
+Saltation::Saltation(System& probe, ModalJets& jets, const Eigen::VectorXd& units)
+    : probe_(probe), jets_(jets), units_(units), n_(probe_.coordinates()), rows_(2 * n_ + kTangentMemories) {}
 
 void Saltation::pass(double t, const double* before, const Phase& was, const double* after, const Phase& is,
                      Eigen::MatrixXd& tangents) {

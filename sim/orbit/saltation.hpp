@@ -19,8 +19,9 @@ struct TangentTouch {
 
 class Saltation {
   public:
-    // `jets` and `units` (of the rows of tangents) must outlive this object.
-    Saltation(const System& system, ModalJets& jets, const Eigen::VectorXd& units);
+    // `probe` evaluates the contact at events. It, `jets` and `units` (of the rows of tangents) must outlive this
+    // object.
+    Saltation(System& probe, ModalJets& jets, const Eigen::VectorXd& units);
 
     // Applies the event between the states `before` and `after`, if there is one, to the tangents (in units). Throws
     // StepFailure at an impact whose speed is zero: neighbouring motions touch at an instant without derivative.
@@ -49,7 +50,7 @@ class Saltation {
     void record_touch(const Instant& at);
     void require_curvature(const Instant& at);
 
-    System probe_;  // a separate copy, so that evaluations at events do not affect the motion
+    System& probe_;
     ModalJets& jets_;
     const Eigen::VectorXd& units_;
     int n_, rows_;

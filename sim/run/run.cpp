@@ -29,20 +29,20 @@ constexpr double kPredictedShift = 1e-3;    // of the step: largest correction o
 constexpr double kInstantRounding = 1e-14;  // of the time: closer instants are one
 constexpr int kMaxIdleEvents = 50;          // at one instant: then the run stops
 
-std::unique_ptr<Integrator> make_integrator(const Solver& solver, Method method, System& dynamics) {
+std::unique_ptr<Integrator> make_integrator(const Solver& solver, Method method, System& system) {
     double share = solver.method == Method::automatic ? kLocalShare : 1;
     if (method == Method::cvode_bdf && method != solver.method) share *= kShareOfBdf;
     const double rtol = share * solver.rtol, atol = share * solver.atol;
     switch (method) {
         case Method::automatic:
-            return make_exponential(dynamics, rtol, atol);
+            return make_exponential(system, rtol, atol);
         case Method::rk8:
-            return make_rk8(dynamics, rtol, atol);
+            return make_rk8(system, rtol, atol);
         case Method::cvode_adams:
         case Method::cvode_bdf:
             break;
     }
-    return make_sundials(method, dynamics, rtol, atol);
+    return make_sundials(method, system, rtol, atol);
 }
 
 }  // namespace
@@ -51,14 +51,14 @@ Run::Run(const Problem& problem, const Progress& progress, const RunOptions& opt
     : problem_(problem),
       progress_(progress),
       start_(options.start),
-      dynamics_(problem),
-      probe_(dynamics_),
-      method_(used_method(problem.solver.method, dynamics_)),
-      integrator_(make_integrator(problem.solver, method_, dynamics_)),
+      system_(problem),
+      probe_(system_),
+      method_(used_method(problem.solver.method, system_)),
+      integrator_(make_integrator(problem.solver, method_, system_)),
       touch_search_(probe_, state_, [this](double t) { report(t); }),
       contact_guards_(probe_, state_),
-      transitions_(dynamics_, probe_.system, *integrator_, state_),
-      kinks_(dynamics_.drive().kinks()),
+      transitions_(system_, *integrator_, state_),
+      kinks_(system_.drive().kinks()),
       end_(options.end),
       step_end_(options.step_ends_there ? options.end : std::numeric_limits<double>::infinity()),
       next_projection_(kFirstProjection) {}
@@ -86,7 +86,7 @@ bool Run::observers_are_done() const {
 }
 
 void Run::start() {
-    const InitialState initial = start_ ? *start_ : initial_state(dynamics_);
+    const InitialState initial = start_ ? *start_ : initial_state(system_);
     state_.y = initial.y;
     state_.statistics.fallbacks.left_behind = initial.left_behind;
     state_.statistics.fallbacks.unstable = initial.unstable;
@@ -102,7 +102,7 @@ void Run::start() {
 const Segment& Run::step() {
     const Segment& segment = integrator_->step();
     last_step_ = segment.t1 - segment.t0;
-    if (++steps_ % kStepsPerReport == 0 || last_step_ * dynamics_.highest_frequency() > kLongStep) report(segment.t1);
+    if (++steps_ % kStepsPerReport == 0 || last_step_ * system_.highest_frequency() > kLongStep) report(segment.t1);
     return segment;
 }
 
@@ -205,7 +205,7 @@ void Run::check_budget() {
 void Run::check_deflection() const {
     const double unit =
         problem_.beam.model == ModelKind::exact ? 1 : problem_.beam.length;  // its coordinates are angles
-    for (std::size_t i = 1; i < static_cast<std::size_t>(dynamics_.coordinates()); ++i)
+    for (std::size_t i = 1; i < static_cast<std::size_t>(system_.coordinates()); ++i)
         if (!(std::fabs(state_.y[i]) < kUnboundedDeflection * unit))
             throw StepFailure("the deflection grows without bound");
 }
@@ -214,12 +214,11 @@ void Run::check_deflection() const {
 // would grow until the beam has passed the cam. A small force may still be overcome by the load on the beam.
 void Run::check_lock() {
     if (!state_.phase.touching || state_.phase.held || steps_ % kStepsPerReport != 0) return;
-    if (dynamics_.coordinates() > 1 || is_prescribed(problem_.hub.drive) || dynamics_.friction().none()) return;
-    System& system = probe_.system;
-    const ContactState c = system.contact(state_.t, state_.y.data());
-    const Compliance response = system.compliance(state_.t, state_.y.data(), c);
-    if (c.force * response.nn > std::fabs(system.free_gap_acceleration(state_.t, state_.y.data())))
-        resolve_impact(response, c.gap_rate, c.slip, system.friction().kinetic, 0, ImpactLaw::newton);
+    if (system_.coordinates() > 1 || is_prescribed(problem_.hub.drive) || system_.friction().none()) return;
+    const ContactState c = system_.contact(state_.t, state_.y.data());
+    const Compliance response = system_.compliance(state_.t, state_.y.data(), c);
+    if (c.force * response.nn > std::fabs(system_.free_gap_acceleration(state_.t, state_.y.data())))
+        resolve_impact(response, c.gap_rate, c.slip, system_.friction().kinetic, 0, ImpactLaw::newton);
 }
 
 // The next instant at which a step ends: the right-hand side is not smooth, summed-up chatter ends, or the run does.
@@ -244,7 +243,7 @@ void Run::report(double t) const {
 RunStatistics Run::statistics() const {
     RunStatistics all = state_.statistics;
     all.counters = integrator_->counters;
-    all.counters.gap_evaluations = dynamics_.gap_evaluations + probe_.system.gap_evaluations;
+    all.counters.gap_evaluations = system_.gap_evaluations;
     all.method = method_;
     all.fallbacks.coarse = probe_.coarse;
     all.fallbacks.steps = integrator_->fallback_steps;
@@ -255,10 +254,10 @@ RunStatistics Run::statistics() const {
 std::string Run::explain(const StepFailure& failure) {
     const auto* stopped = dynamic_cast<const RunStopped*>(&failure);
     Stop why = stopped ? stopped->why : Stop::method;
-    if (dynamic_cast<const InertiaLost*>(&failure) || dynamics_.inertia_lost()) why = Stop::inertia_lost;
+    if (dynamic_cast<const InertiaLost*>(&failure) || system_.inertia_lost()) why = Stop::inertia_lost;
     if (dynamic_cast<const ContactLocked*>(&failure)) why = Stop::locked;
     transitions_.enter_phase();
-    return sim::explain({why, failure.what(), state_.t, last_step_, projected_steps_}, probe_.system, state_.y.data());
+    return sim::explain({why, failure.what(), state_.t, last_step_, projected_steps_}, system_, state_.y.data());
 }
 
 }  // namespace beamcam::sim

@@ -29,7 +29,7 @@ class Run {
     // To the end, or until all observers are done. Throws SolverError, without results, and Interrupted.
     void integrate();
 
-    const System& system() const { return dynamics_; }
+    const System& system() const { return system_; }
     const RunState& state() const { return state_; }
     RunStatistics statistics() const;
 
@@ -55,7 +55,7 @@ class Run {
     const Problem problem_;
     const Progress progress_;
     const InitialState* start_;
-    System dynamics_;
+    System system_;
     SegmentProbe probe_;
     RunState state_;
     const Method method_;  // of the integrator: what "auto" means here

@@ -1,5 +1,5 @@
-// Evaluates the contact inside an accepted step with a separate System, so that event location never changes the
-// motion. Also determines how many subintervals resolve the step.
+// Evaluates the contact inside an accepted step with the System of the run, whose right-hand side sets its own state.
+// Also determines how many subintervals resolve the step.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ inline constexpr double kPieceLimit = 1e5;
 
 class SegmentProbe {
   public:
-    explicit SegmentProbe(const System& of) : system(of), gap_(system), y_(static_cast<std::size_t>(of.size)) {}
+    explicit SegmentProbe(System& of) : system(of), gap_(system), y_(static_cast<std::size_t>(of.size)) {}
 
     // The state at t; valid until the next evaluation.
     const double* state(const Segment& segment, double t) {
@@ -42,7 +42,7 @@ class SegmentProbe {
     int limited(double pieces);
     double gap_rounding() const { return kGapRounding * system.problem().beam.length; }
 
-    System system;
+    System& system;
     long coarse = 0;  // steps that need more than kPieceLimit subintervals
 
   private:

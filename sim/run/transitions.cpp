@@ -229,9 +229,4 @@ void Transitions::end_chatter() {
     announce(ContactEvent::touch, state_.y, c);
 }
 
-void Transitions::enter_phase() {
-    dynamics_.set_phase(state_.phase);
-    system_.set_phase(state_.phase);
-}
-
 }  // namespace beamcam::sim

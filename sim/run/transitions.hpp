@@ -7,9 +7,9 @@ namespace beamcam::sim {
 
 class Transitions {
   public:
-    // `dynamics` is integrated by `integrator`; `event_system` evaluates the contact at events.
-    Transitions(System& dynamics, System& event_system, Integrator& integrator, RunState& state)
-        : dynamics_(dynamics), system_(event_system), integrator_(integrator), state_(state) {}
+    // `system` is integrated by `integrator`.
+    Transitions(System& system, Integrator& integrator, RunState& state)
+        : system_(system), integrator_(integrator), state_(state) {}
 
     // At the start of the run. `continued`: the contact that the motion continues; null: a new one, if there is one.
     void start(const InitialContact* continued);
@@ -17,7 +17,7 @@ class Transitions {
     void announce_start();
     void apply(const Event& event);
     void end_chatter();  // summed-up chatter ends: the beam rests on the cam (S57)
-    void enter_phase();
+    void enter_phase() { system_.set_phase(state_.phase); }
 
   private:
     void touch();
@@ -37,7 +37,7 @@ class Transitions {
     double& bristle() { return state_.y[static_cast<std::size_t>(2 * system_.coordinates())]; }
     const Problem& problem() const { return system_.problem(); }
 
-    System &dynamics_, &system_;
+    System& system_;
     Integrator& integrator_;
     RunState& state_;
     double first_approach_ = 0, last_rebound_ = 0;  // [m/s]

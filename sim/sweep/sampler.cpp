@@ -7,6 +7,7 @@
 
 #include "sim/base/numerics.hpp"
 #include "sim/observe/crossings.hpp"
+#include "sim/observe/extrema.hpp"
 
 namespace beamcam::sim {
 
@@ -16,31 +17,22 @@ constexpr int kCarriedRounds = 8;          // Newton iterations that move a carr
 Sampler::Sampler(const System& system, const Sampling& sampling)
     : sampling_(sampling),
       span_(sample_span(system.problem(), sampling)),
-      system_(system),
+      evaluator_(system),
+      system_(evaluator_.system()),
+      step_(evaluator_),
       y_(static_cast<std::size_t>(system.size)),
       section_phase_(section_phase(system.problem(), sampling.level)),
       next_strobe_(span_.from),
       next_section_(span_.from) {
     motion_.accuracy = kSettledTolerances * system_.problem().solver.rtol;
-    if (sampling.kind == SampleKind::apexes || sampling.kind == SampleKind::crossings) step_.emplace(system);
-    if (sampling.kind == SampleKind::peaks) peaks_.emplace(system);
-}
-
-static std::vector<Channel> channels_of_peaks() {
-    return {{ChannelKind::contact_force}, {ChannelKind::stress_max}, {ChannelKind::gap}};
-}
-
-Sampler::Peaks::Peaks(const System& system) : finder(system, channels_of_peaks()) {
+    if (sampling.kind != SampleKind::peaks) return;
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    extrema.assign(channels_of_peaks().size(), {kInfinity, 0, -kInfinity, 0});
-    sample.fill(kNan);
+    peaks_.emplace().extrema.fill({kInfinity, 0, -kInfinity, 0});
+    peaks_->sample.fill(kNan);
 }
 
 void Sampler::resume(double t, const std::vector<double>& y, const Phase& phase) {
-    phase_ = phase;
     system_.set_phase(phase);
-    if (step_) step_->set_phase(phase);
-    if (peaks_) peaks_->finder.set_phase(phase);
     if (!phase.touching) left_ = true;
     motion_.end = {y, phase};
     hub_ = hub_at(t, y.data());
@@ -64,7 +56,8 @@ void Sampler::step(const SegmentInterval& s) {
     strobes(s);
     if (s.to >= span_.t_from()) {
         if (sampling_.kind == SampleKind::section) sections(s);
-        if (step_ && s.to > s.from) events(s);
+        const bool of_events = sampling_.kind == SampleKind::apexes || sampling_.kind == SampleKind::crossings;
+        if (of_events && s.to > s.from) events(s);
         if (peaks_) raise_peaks(s);
     }
     evaluate(s, s.to);
@@ -105,8 +98,8 @@ void Sampler::strobes(const SegmentInterval& s) {
 void Sampler::strobe(double t, const double* y) {
     system_.set_state(t, y);
     motion_.strobes.push_back(
-        {system_.model().hub_angle(), system_.model().hub_rate(), kept_impacts_, phase_.touching, left_});
-    left_ = !phase_.touching;
+        {system_.model().hub_angle(), system_.model().hub_rate(), kept_impacts_, system_.phase().touching, left_});
+    left_ = !system_.phase().touching;
 }
 
 void Sampler::sections(const SegmentInterval& s) {
@@ -122,11 +115,11 @@ void Sampler::events(const SegmentInterval& s) {
     std::vector<double> times;
     if (sampling_.kind == SampleKind::apexes) {
         std::vector<Apex> apexes;
-        find_apexes(*step_, s, apexes);
+        find_apexes(step_, s, apexes);
         for (const Apex& apex : apexes) times.push_back(apex.t);
     } else {
         std::vector<LevelCrossing> crossings;
-        find_crossings(*step_, s, sampling_.channel, sampling_.level, crossings);
+        find_crossings(step_, s, sampling_.channel, sampling_.level, crossings);
         for (const LevelCrossing& crossing : crossings)
             if (crossing.rises == sampling_.rising) times.push_back(crossing.t);
     }
@@ -146,10 +139,12 @@ void Sampler::raise_peaks(const SegmentInterval& s) {
     Peaks& peaks = *peaks_;
     const double length = part.to - part.from, before = peaks.extrema[0].max;
     peaks.time += length;
-    if (phase_.touching) peaks.touching += length;
-    peaks.contact = phase_.touching ? peaks.contact + length : 0;
+    if (system_.phase().touching) peaks.touching += length;
+    peaks.contact = system_.phase().touching ? peaks.contact + length : 0;
     peaks.longest = std::max(peaks.longest, peaks.contact);
-    peaks.finder.step(part, peaks.extrema);
+    constexpr std::array kChannelsOfPeaks{Channel{ChannelKind::contact_force}, Channel{ChannelKind::stress_max},
+                                          Channel{ChannelKind::gap}};
+    raise_extrema(step_, part, kChannelsOfPeaks, peaks.extrema);
     if (!(peaks.extrema[0].max > std::max(before, 0.0))) return;
     evaluate(s, peaks.extrema[0].t_max);
     const double rebound = peaks.sample[kReboundPeak];

@@ -1,9 +1,10 @@
 // Samples of one motion, taken during the integration. The trajectory is not stored.
 #pragma once
 
+#include <array>
 #include <optional>
 
-#include "sim/observe/extrema.hpp"
+#include "sim/observe/result.hpp"
 #include "sim/observe/step_samples.hpp"
 #include "sim/run/run.hpp"
 #include "sim/sweep/sampling.hpp"
@@ -13,6 +14,8 @@ namespace beamcam::sim {
 class Sampler final : public Observer {
   public:
     Sampler(const System& system, const Sampling& sampling);
+    Sampler(const Sampler&) = delete;  // its parts refer to each other
+    Sampler& operator=(const Sampler&) = delete;
 
     double end() const override { return span_.t_to(); }
     void resume(double t, const std::vector<double>& y, const Phase& phase) override;
@@ -25,9 +28,7 @@ class Sampler final : public Observer {
   private:
     // The extremes of the time that is kept.
     struct Peaks {
-        explicit Peaks(const System& system);  // in place: the finder must not move
-        ExtremaFinder finder;
-        std::vector<Extremum> extrema;    // of the contact force, the stress and the gap
+        std::array<Extremum, 3> extrema;  // of the contact force, the stress and the gap
         double time = 0, touching = 0;    // [s]
         double contact = 0, longest = 0;  // the present contact and the longest one [s]
         MotionSample sample = {};         // at the largest force
@@ -51,13 +52,13 @@ class Sampler final : public Observer {
 
     const Sampling& sampling_;
     SampleSpan span_;
-    System system_;
-    std::optional<StepSamples> step_;  // for samples at apexes or crossings
+    ChannelEvaluator evaluator_;
+    System& system_;
+    StepSamples step_;
     std::optional<Peaks> peaks_;
     SampledMotion motion_;
     std::vector<double> y_;
-    Hub hub_;  // at the end of the last step
-    Phase phase_;
+    Hub hub_;                             // at the end of the last step
     std::optional<MotionSample> impact_;  // of the present contact
     double section_phase_;                // fraction of a turn after the start: 0 … 1
     long next_strobe_, next_section_;
