@@ -18,8 +18,6 @@ struct SegmentInterval {
     bool ends_before(double t) const { return last ? t > to : t >= to; }
 };
 
-enum class ContactEvent { touch, release };
-
 class Observer {
   public:
     virtual ~Observer() = default;
@@ -28,7 +26,8 @@ class Observer {
     // A phase begins: at the start and after every event.
     virtual void resume(double t, const std::vector<double>& y, const Phase& phase) = 0;
     virtual void step(const SegmentInterval& s) = 0;
-    virtual void event(ContactEvent event, double t, const std::vector<double>& y, const ContactState& contact) = 0;
+    virtual void touch(double /*t*/, const std::vector<double>& /*y*/, const ContactState&) {}
+    virtual void release(double /*t*/, const std::vector<double>& /*y*/, const ContactState&) {}
 };
 
 }  // namespace beamcam::sim

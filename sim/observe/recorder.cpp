@@ -133,18 +133,9 @@ void Recorder::record_balance(const SegmentInterval& s) {
     note_balance();
 }
 
-void Recorder::event(ContactEvent event, double t, const std::vector<double>& y, const ContactState& contact) {
-    switch (event) {
-        case ContactEvent::touch:
-            return touch(t, y.data(), contact);
-        case ContactEvent::release:
-            return impacts_.release(t, y.data(), contact);
-    }
-}
-
-void Recorder::touch(double t, const double* y, const ContactState& contact) {
+void Recorder::touch(double t, const std::vector<double>& y, const ContactState& contact) {
     const std::size_t before = result_.collisions.size();
-    impacts_.touch(t, y, contact);
+    impacts_.touch(t, y.data(), contact);
     if (result_.collisions.size() > before) bend_ = kNoValue;
     samples_.begin_contact();
     if (request_.impact_peaks) return;

@@ -25,7 +25,10 @@ class Recorder final : public Observer {
     bool done() const override { return finished_; }
     void resume(double t, const std::vector<double>& y, const Phase& phase) override;
     void step(const SegmentInterval& s) override;
-    void event(ContactEvent event, double t, const std::vector<double>& y, const ContactState& contact) override;
+    void touch(double t, const std::vector<double>& y, const ContactState& contact) override;
+    void release(double t, const std::vector<double>& y, const ContactState& contact) override {
+        impacts_.release(t, y.data(), contact);
+    }
     // Nothing follows (t, y).
     void finish(double t, const double* y);
 
@@ -39,7 +42,6 @@ class Recorder final : public Observer {
     void find_bend(const SegmentInterval& s);  // of the present collision
     void record_balance(const SegmentInterval& s);
     void note_balance();
-    void touch(double t, const double* y, const ContactState& contact);
 
     const Request& request_;
     const std::function<RunStatistics()> statistics_;

@@ -26,7 +26,6 @@ class Tangents final : public Observer {
     bool done() const override { return false; }
     void resume(double t, const std::vector<double>& y, const Phase& phase) override;
     void step(const SegmentInterval& s) override;
-    void event(ContactEvent, double, const std::vector<double>&, const ContactState&) override {}
 
     // `pause` is called when the tangents reach the instant t, and after each touch, because an impact may shrink a
     // tangent by any factor. It may change the tangents and returns the next instant.

@@ -25,7 +25,7 @@ void Transitions::start(const InitialContact* continued) {
 }
 
 void Transitions::announce_start() {
-    if (state_.phase.touching) announce(ContactEvent::touch, state_.y, contact_now());
+    if (state_.phase.touching) announce(&Observer::touch, state_.y, contact_now());
 }
 
 void Transitions::apply(const Event& event) {
@@ -51,9 +51,9 @@ void Transitions::apply(const Event& event) {
     }
 }
 
-void Transitions::announce(ContactEvent event, const std::vector<double>& y, const ContactState& c) {
+void Transitions::announce(decltype(&Observer::touch) event, const std::vector<double>& y, const ContactState& c) {
     for (Observer* observer : state_.observers)
-        if (!observer->done()) observer->event(event, state_.t, y, c);
+        if (!observer->done()) (observer->*event)(state_.t, y, c);
 }
 
 void Transitions::touch() {
@@ -73,7 +73,7 @@ void Transitions::touch() {
     start_friction();
     enter_phase();
     const ContactState c = contact_now();
-    announce(ContactEvent::touch, state_.y, c);
+    announce(&Observer::touch, state_.y, c);
     // A first step as long as the impact could move the beam into the cam before any stage evaluates the force.
     integrator_.limit_first_step(kFirstTouchStep *
                                  system_.touch_time(state_.t, state_.y.data(), c, state_.phase.approach));
@@ -81,7 +81,7 @@ void Transitions::touch() {
 
 void Transitions::release() {
     const ContactState c = contact_now();
-    announce(ContactEvent::release, state_.y, c);
+    announce(&Observer::release, state_.y, c);
     begin_flight();
     if (system_.has_bristle()) bristle() = 0;
 }
@@ -153,7 +153,7 @@ void Transitions::impact() {
     // The gap opens: it was negative only by rounding, and there is no impact.
     if (!slow && !(approach > 0)) return;
     if (!chatter && slow) ++state_.statistics.fallbacks.strikes;
-    announce(ContactEvent::touch, state_.y, c);
+    announce(&Observer::touch, state_.y, c);
     if (slow) impact = resolve(0);
     if (approach > 0) system_.apply_impact(state_.t, state_.y.data(), c, impact);
     const double pull_after = pull_on_cam();
@@ -170,7 +170,7 @@ void Transitions::impact() {
 void Transitions::record_rebound(const std::vector<double>& y, ContactState c, const ImpactResult& impact) {
     c.gap_rate = impact.v_n;
     c.slip = impact.v_t;
-    announce(ContactEvent::release, y, c);
+    announce(&Observer::release, y, c);
     last_release_ = state_.t;
 }
 
@@ -205,7 +205,7 @@ bool Transitions::sum_up_chatter(const ContactState& c, const ImpactResult& impa
         enter_phase();
         return false;
     }
-    announce(ContactEvent::touch, state_.y, c);
+    announce(&Observer::touch, state_.y, c);
     std::vector<double> struck = state_.y;
     system_.apply_impact(state_.t, struck.data(), c, impact);
     record_rebound(struck, c, impact);
@@ -217,7 +217,7 @@ bool Transitions::sum_up_chatter(const ContactState& c, const ImpactResult& impa
 }
 
 void Transitions::lift() {
-    if (!state_.chatter_end) announce(ContactEvent::release, state_.y, contact_now());
+    if (!state_.chatter_end) announce(&Observer::release, state_.y, contact_now());
     state_.chatter_end.reset();
     begin_flight();
 }
@@ -226,7 +226,7 @@ void Transitions::end_chatter() {
     state_.chatter_end.reset();
     ContactState c = contact_now();
     c.gap_rate = 0;  // but for rounding
-    announce(ContactEvent::touch, state_.y, c);
+    announce(&Observer::touch, state_.y, c);
 }
 
 }  // namespace beamcam::sim

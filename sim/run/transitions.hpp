@@ -27,7 +27,7 @@ class Transitions {
     void lift();
     void hold();
     bool sum_up_chatter(const ContactState& c, const ImpactResult& impact, const ImpactResult& plastic);
-    void announce(ContactEvent event, const std::vector<double>& y, const ContactState& c);
+    void announce(decltype(&Observer::touch) event, const std::vector<double>& y, const ContactState& c);
     void record_rebound(const std::vector<double>& y, ContactState c, const ImpactResult& impact);
     void cancel_gap_rounding();
     void begin_flight();

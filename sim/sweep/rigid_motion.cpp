@@ -86,16 +86,16 @@ void RigidMotion::impact() {
         if (pull > 0) return rest_on(c);
         return lift_after_impact();
     }
-    announce(ContactEvent::touch, c, state_.rate);
+    announce(&Observer::touch, c, state_.rate);
     if (sums_up_chatter(c, bounce)) {
-        announce(ContactEvent::release, c, surface_.rate(c) + bounce.rebound / c.lever);
+        announce(&Observer::release, c, surface_.rate(c) + bounce.rebound / c.lever);
         return rest_on(c);
     }
     const bool slow = bounce.ends_chatter(pull, last_rebound_, problem_);
     last_rebound_ = bounce.rebound;
     const double kept = slow ? 0 : problem_.contact.restitution, after = surface_.rate(c) - kept * w;
     if (slow && pull > 0) return rest_on(c);
-    announce(ContactEvent::release, c, after);
+    announce(&Observer::release, c, after);
     state_.rate = after;
     slow ? lift_after_impact() : resume(false);
 }
@@ -132,7 +132,7 @@ void RigidMotion::stay_in_contact() {
     const double stays = to - from;
     move_to(from);
     if (ends) return;
-    announce(ContactEvent::release, c, state_.rate);
+    announce(&Observer::release, c, state_.rate);
     lift(s_ + stays);
 }
 
@@ -190,7 +190,7 @@ void RigidMotion::resume(bool in_contact) {
 }
 
 // The beam at the surface with this rate of the hub. v_t: (S27).
-void RigidMotion::announce(ContactEvent event, const SurfaceAngle& c, double rate) {
+void RigidMotion::announce(decltype(&Observer::touch) event, const SurfaceAngle& c, double rate) {
     const CamPose pose = cam_pose(mirrored_.cam, s_);
     const double along = -dot(unit(c.angle), pose.velocity) - mirrored_.cam.speed * mirrored_.cam.radius;
     ContactState contact;
@@ -198,7 +198,7 @@ void RigidMotion::announce(ContactEvent event, const SurfaceAngle& c, double rat
     contact.gap_rate = c.lever * (rate - surface_.rate(c));
     contact.slip = mirrored_.side * (along + contact_offset(problem_) * rate);
     put({c.angle, rate}, y_.data());
-    sampler_.event(event, time(s_), y_, contact);
+    (sampler_.*event)(time(s_), y_, contact);
 }
 
 }  // namespace beamcam::sim

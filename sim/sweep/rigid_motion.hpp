@@ -51,7 +51,7 @@ class RigidMotion : private Segment {
     void put(const RodState& state, double* y) const;
     void show_until(double s);
     void resume(bool in_contact);
-    void announce(ContactEvent event, const SurfaceAngle& c, double rate);
+    void announce(decltype(&Observer::touch) event, const SurfaceAngle& c, double rate);
 
     const Problem& problem_;
     InitialState start_;

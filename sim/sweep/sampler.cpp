@@ -170,17 +170,8 @@ SampledMotion Sampler::take() {
     return std::move(motion_);
 }
 
-void Sampler::event(ContactEvent event, double t, const std::vector<double>& y, const ContactState& contact) {
-    switch (event) {
-        case ContactEvent::touch:
-            return touch(t, y.data(), contact);
-        case ContactEvent::release:
-            return release(t, contact);
-    }
-}
-
 // The end of summed-up chatter and a start in contact are touches without an approach: no impacts.
-void Sampler::touch(double t, const double* y, const ContactState& contact) {
+void Sampler::touch(double t, const std::vector<double>& y, const ContactState& contact) {
     impact_.reset();
     if (peaks_) peaks_->contact = 0;
     if (!(contact.gap_rate < 0) || t == 0) return;
@@ -188,14 +179,14 @@ void Sampler::touch(double t, const double* y, const ContactState& contact) {
     if (!kept(t)) return;
     ++kept_impacts_;
     if (sampling_.kind != SampleKind::impacts) return;
-    impact_ = sample(t, y);
+    impact_ = sample(t, y.data());
     (*impact_)[kContactX] = contact.x;
     (*impact_)[kNormalBefore] = contact.gap_rate;
     (*impact_)[kTangentialBefore] = contact.slip;
     motion_.samples.push_back(*impact_);
 }
 
-void Sampler::release(double t, const ContactState& contact) {
+void Sampler::release(double t, const std::vector<double>&, const ContactState& contact) {
     left_ = true;
     if (peaks_ && kept(t)) {
         double& fastest = peaks_->sample[kReboundPeak];

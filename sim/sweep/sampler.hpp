@@ -20,7 +20,8 @@ class Sampler final : public Observer {
     double end() const override { return span_.t_to(); }
     void resume(double t, const std::vector<double>& y, const Phase& phase) override;
     void step(const SegmentInterval& s) override;
-    void event(ContactEvent event, double t, const std::vector<double>& y, const ContactState& contact) override;
+    void touch(double t, const std::vector<double>& y, const ContactState& contact) override;
+    void release(double t, const std::vector<double>& y, const ContactState& contact) override;
     bool done() const override { return motion_.over_the_top; }
 
     SampledMotion take();
@@ -35,8 +36,6 @@ class Sampler final : public Observer {
     };
     void raise_peaks(const SegmentInterval& s);
     void finish_peaks();
-    void touch(double t, const double* y, const ContactState& contact);
-    void release(double t, const ContactState& contact);
     bool kept(double t) const { return t >= span_.t_from(); }
     MotionSample sample(double t, const double* y);
     void strobe(double t, const double* y);

@@ -103,7 +103,6 @@ class FrictionChanges final : public Observer {
         if (all.empty() || all.back().state != phase.friction) all.push_back({t, phase.friction});
     }
     void step(const SegmentInterval&) override {}
-    void event(ContactEvent, double, const std::vector<double>&, const ContactState&) override {}
     bool done() const override { return false; }
     std::vector<Change> all;
 
