@@ -122,7 +122,13 @@ const std::vector<double>& SampleRecorder::row(const SegmentInterval& s, double 
 void SampleRecorder::step(const SegmentInterval& s) {
     std::vector<std::size_t> before;
     for (const Cursor& cursor : table_cursors_) before.push_back(cursor.next);
-    sample_tables(s);
+    for (std::size_t i = 0; i < request_.tables.size(); ++i) {
+        const TableRequest& table = request_.tables[i];
+        sweep(table.times, table_cursors_[i], s, [&](double t, std::size_t at) {
+            const std::vector<double>& values = row(s, t, table.channels);
+            for (std::size_t c = 0; c < values.size(); ++c) result_.tables[i].values[c][at] = values[c];
+        });
+    }
     refine_tables(s, before);
     for (std::size_t i = 0; i < request_.poses.size(); ++i)
         sweep(request_.poses[i].times, pose_cursors_[i], s, [&](double t, std::size_t row) { put_pose(s, t, i, row); });
@@ -134,33 +140,6 @@ void SampleRecorder::step(const SegmentInterval& s) {
             evaluator_.model().point(points.x, p);
             result_.points[i][row] = p.r;
         });
-    }
-}
-
-// Charts and traces ask for the same instants: each is evaluated once for all tables.
-void SampleRecorder::sample_tables(const SegmentInterval& s) {
-    constexpr double kNone = std::numeric_limits<double>::infinity();
-    const auto next = [&](std::size_t i) {
-        const Cursor& cursor = table_cursors_[i];
-        return cursor.next < cursor.order.size() ? request_.tables[i].times[cursor.order[cursor.next]] : kNone;
-    };
-    std::vector<Channel> channels;
-    for (;;) {
-        double t = kNone;
-        for (std::size_t i = 0; i < request_.tables.size(); ++i) t = std::min(t, next(i));
-        if (t == kNone || s.ends_before(t)) return;
-        channels.clear();
-        for (std::size_t i = 0; i < request_.tables.size(); ++i)
-            if (next(i) == t)
-                channels.insert(channels.end(), request_.tables[i].channels.begin(), request_.tables[i].channels.end());
-        auto value = row(s, t, channels).begin();
-        for (std::size_t i = 0; i < request_.tables.size(); ++i) {
-            if (next(i) != t) continue;
-            for (; next(i) == t; ++table_cursors_[i].next)
-                for (std::size_t c = 0; c < request_.tables[i].channels.size(); ++c)
-                    result_.tables[i].values[c][table_cursors_[i].order[table_cursors_[i].next]] = value[c];
-            value += request_.tables[i].channels.size();
-        }
     }
 }
 

@@ -33,7 +33,6 @@ class SampleRecorder {
     void evaluate_at(const SegmentInterval& s, double t);
     // Valid until the next call.
     const std::vector<double>& row(const SegmentInterval& s, double t, const std::vector<Channel>& channels);
-    void sample_tables(const SegmentInterval& s);
     void refine_tables(const SegmentInterval& s, const std::vector<std::size_t>& before);
     template <class Refiner, class At>
     void refine_table(const SegmentInterval& s, std::size_t table, std::size_t before, Refiner& refiner, At&& at);
