@@ -179,23 +179,9 @@ bool check_continued_contact(Issues& out, const Problem& p, double gap) {
     return true;
 }
 
-struct StartGap {
-    double gap, x;  // [m]
-};
-// For a straight beam: the distance between a line segment and a disc.
-StartGap straight_gap(const Problem& p) {
-    const Cam& cam = *p.cam;
-    double angle = p.initial.angle;
-    if (is_prescribed(p.hub.drive)) angle = DriveLaw(p.hub.drive, angle).motion(0).angle;
-    const Vec2 along = unit(angle), disc = disc_centre(cam, 0);
-    const double x = std::clamp(dot(disc, along) - p.hub.radius, 0.0, p.beam.length);
-    return {norm((p.hub.radius + x) * along - disc) - cam.radius - contact_offset(p), x};
-}
-StartGap gap_at_start(const Problem& p) {
+ContactState contact_at_start(const Problem& p) {
     System system(p);
-    const InitialState start = initial_state(system);
-    const ContactState c = system.contact(0, start.y.data());
-    return {c.gap, c.x};
+    return system.contact(0, initial_state(system).y.data());
 }
 
 // Most cams stay away from the tip by far, and need no search.
@@ -249,16 +235,15 @@ void check_geometry(Issues& out, const Problem& p, const CamShape& shape) {
     }
     if (p.initial.shape == InitialShape::resting) return;
     try {
-        const bool straight = p.initial.shape == InitialShape::straight && p.initial.q.empty() && !p.cam->profile;
-        auto [gap, x] = straight ? straight_gap(p) : gap_at_start(p);
-        if (p.initial.contact) gap += p.initial.contact->gap_offset;
+        const ContactState start = contact_at_start(p);
+        const double gap = start.gap + (p.initial.contact ? p.initial.contact->gap_offset : 0);
         if (check_continued_contact(out, p, gap)) return;
         if (gap < -kStartGap * std::max(1.0, p.beam.length))
             out.error(
                 std::holds_alternative<AngleTable>(p.hub.drive) ? "hub.drive.theta" : "initial.angle",
                 fmt::format("beam and cam overlap by {:.3g} m at the start (at {:.3g} m along the beam); raise the "
                             "angle, {}",
-                            -gap, x,
+                            -gap, start.x,
                             is_prescribed(p.hub.drive) ? "or change cam.phase"
                                                        : "change cam.phase, or use \"shape\": \"resting\""));
     } catch (const StepFailure& failure) {

@@ -73,15 +73,6 @@ double contact_offset(const Problem& problem) {
     return problem.contact.offset.value_or(0.5 * beam_depth(problem.beam));
 }
 
-CamPose cam_pose(const Cam& cam, double t) {
-    CamPose pose;
-    pose.angle = cam.phase - cam.speed * t;
-    const Vec2 arm = cam.eccentricity * unit(pose.angle);
-    pose.disc = cam.centre + arm;  // (S23)
-    pose.velocity = -cam.speed * perp(arm);
-    return pose;
-}
-
 // In factors that cannot overflow together.
 double first_clamped_frequency(const Beam& b) {
     const SectionProperties section = section_properties(b);

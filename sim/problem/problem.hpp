@@ -340,13 +340,10 @@ double turn_fraction(double turns);                // fractional part, in [0, 1)
 // Fraction of a turn after t = 0 at which the cam's angle is ψ, in [0, 1).
 double section_phase(const Problem& problem, double psi);
 
-struct CamPose {
-    double angle = 0;  // ψ [rad]
-    Vec2 disc;         // B [m]
-    Vec2 velocity;     // Ḃ [m/s]
-};
-CamPose cam_pose(const Cam& cam, double t);  // (S23)
-inline Vec2 disc_centre(const Cam& cam, double t) { return cam_pose(cam, t).disc; }
+// B [m] (S23)
+inline Vec2 disc_centre(const Cam& cam, double t) {
+    return cam.centre + cam.eccentricity * unit(cam.phase - cam.speed * t);
+}
 
 // Maximum penetration of a mass that hits an undamped contact F = K δⁿ at this speed,
 // [(n+1) m v²/(2K)]^{1/(n+1)} [m] (S37).

@@ -191,8 +191,9 @@ void RigidMotion::resume(bool in_contact) {
 
 // The beam at the surface with this rate of the hub. v_t: (S27).
 void RigidMotion::announce(decltype(&Observer::touch) event, const SurfaceAngle& c, double rate) {
-    const CamPose pose = cam_pose(mirrored_.cam, s_);
-    const double along = -dot(unit(c.angle), pose.velocity) - mirrored_.cam.speed * mirrored_.cam.radius;
+    const Cam& cam = mirrored_.cam;
+    const Vec2 arm = cam.eccentricity * unit(cam.phase - cam.speed * s_), velocity = -cam.speed * perp(arm);
+    const double along = -dot(unit(c.angle), velocity) - cam.speed * cam.radius;
     ContactState contact;
     contact.x = c.lever - problem_.hub.radius;
     contact.gap_rate = c.lever * (rate - surface_.rate(c));
