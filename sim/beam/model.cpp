@@ -43,26 +43,13 @@ double Model::hub_rate() const {
 }
 
 void Model::add_damping(double* f) const {
-    if (!damped_) return;
-    const double* c = damping_->data();
-    if (damping_diagonal_) {
-        for (int i = 0; i < modes_; ++i) f[1 + i] -= c[i] * rate_[1 + i];
-        return;
-    }
+    if (!damping_) return;
     for (int j = 0; j < modes_; ++j)
-        for (int i = 0; i < modes_; ++i) f[1 + i] -= c[j * modes_ + i] * rate_[1 + j];
-}
-
-std::vector<double> Model::damping_matrix() const {
-    if (!damped_ || !damping_diagonal_) return damped_ ? *damping_ : std::vector<double>();
-    const auto n = static_cast<std::size_t>(modes_);
-    std::vector<double> full(n * n);
-    for (std::size_t i = 0; i < n; ++i) full[i * n + i] = (*damping_)[i];
-    return full;
+        for (int i = 0; i < modes_; ++i) f[1 + i] -= (*damping_)(i, j) * rate_[1 + j];
 }
 
 double Model::damping_power() const {
-    if (!damped_) return 0;
+    if (!damping_) return 0;
     double force[kMaxSize] = {};
     add_damping(force);
     double power = 0;
@@ -98,15 +85,10 @@ void Model::build_damping(const Problem& problem) {
         damping = weighted_square(weighted, twice);
     }
     damping = 0.5 * (damping + damping.transpose()).eval();
-    const double off = (damping - Eigen::MatrixXd(damping.diagonal().asDiagonal())).cwiseAbs().maxCoeff();
-    damped_ = true;
-    damping_diagonal_ = off <= kUncoupledDamping * damping.diagonal().cwiseAbs().maxCoeff() && n > 0;
-    auto values = std::make_shared<std::vector<double>>();
-    if (damping_diagonal_)
-        for (Eigen::Index i = 0; i < n; ++i) values->push_back(damping(i, i));
-    else
-        values->assign(damping.data(), damping.data() + n * n);
-    damping_ = values;
+    const Eigen::MatrixXd diagonal = damping.diagonal().asDiagonal();
+    const double off = (damping - diagonal).cwiseAbs().maxCoeff();
+    const bool uncoupled = off <= kUncoupledDamping * diagonal.cwiseAbs().maxCoeff();
+    damping_ = std::make_shared<Eigen::MatrixXd>(uncoupled ? diagonal : damping);
 }
 
 std::unique_ptr<Model> make_model(const Problem& problem) {

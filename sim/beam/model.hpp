@@ -74,13 +74,8 @@ class Model {
     virtual Vec2 convective(double x) const = 0;
     virtual double bending_moment(double x) const = 0;  // EI κ [N m]
     virtual Energies energies() const = 0;
-    double damping_power() const;  // q̇ᵀ C_d q̇ [W]
-    bool damped() const { return damped_; }
-    // Diagonal of C_d [kg/s], N numbers; null if undamped or if C_d is not diagonal.
-    const double* diagonal_damping() const { return damped_ && damping_diagonal_ ? damping_->data() : nullptr; }
-
-    // C_d, N² numbers, column-major; empty if undamped.
-    std::vector<double> damping_matrix() const;
+    double damping_power() const;                                      // q̇ᵀ C_d q̇ [W]
+    const Eigen::MatrixXd* damping() const { return damping_.get(); }  // C_d, N × N [kg/s]; null if undamped
 
     double hub_angle() const;                           // θ
     double hub_rate() const;                            // θ̇
@@ -103,8 +98,7 @@ class Model {
     double length_, mass_, radius_, hub_inertia_, gravity_, line_density_, stiffness_;
     double xi_[kMaxSize] = {}, rate_[kMaxSize] = {};
     double hub_row_[kMaxSize] = {};
-    bool damped_ = false, damping_diagonal_ = true;
-    std::shared_ptr<const std::vector<double>> damping_;  // N (diagonal) or N² numbers
+    std::shared_ptr<const Eigen::MatrixXd> damping_;
 };
 
 std::unique_ptr<Model> make_model(const Problem& problem);

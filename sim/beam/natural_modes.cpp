@@ -32,8 +32,7 @@ NaturalModes::NaturalModes(const Model& of, const Problem& problem) {
     inverse.topRightCorner(1, n) = rotation.transpose();
     U = beam.transpose() * (mass.bottomLeftCorner(n, 1) - J * rotation);
     damping = Eigen::VectorXd::Zero(n);
-    if (const std::vector<double> all = model->damping_matrix(); !all.empty())
-        damping = (beam.transpose() * Eigen::Map<const Eigen::MatrixXd>(all.data(), n, n) * beam).diagonal() / m;
+    if (model->damping()) damping = (beam.transpose() * *model->damping() * beam).diagonal() / m;
     bound_shapes(*model, problem.beam.bending_stiffness(), problem.hub.radius);
     weigh(*model, problem.gravity);
 }

@@ -73,7 +73,7 @@ Linearization QuadratureModel::linearize() const {
     // speed and odd in q near q = 0.
     const std::unique_ptr<Model> copy = clone();
     auto& model = static_cast<QuadratureModel&>(*copy);
-    model.damped_ = false;
+    model.damping_ = nullptr;
     model.gravity_ = 0;
     double xi[kMaxSize] = {}, rate[kMaxSize] = {}, f[kMaxSize], g[kMaxSize];
     model.set(xi, rate);

@@ -24,7 +24,7 @@ std::shared_ptr<ModalForm> ModalForm::begin(const System& system, const Model& m
     auto form = std::make_shared<ModalForm>();
     form->n = model.size() - 1;
     form->prescribed = system.drive().prescribed();
-    form->damped = model.damped();
+    form->damped = model.damping() != nullptr;
     form->mass = model.mass();
     form->gravity = system.problem().gravity;
     form->radius = system.problem().hub.radius;
@@ -48,7 +48,7 @@ std::shared_ptr<const ModalForm> ModalForm::of(System& system) {
 
 std::shared_ptr<const ModalForm> ModalForm::by_arrays_of(System& system) {
     const auto* model = static_cast<const ModalModel*>(&system.model());
-    BEAMCAM_ASSERT(!model->damped() || model->diagonal_damping());
+    BEAMCAM_ASSERT(!model->damping() || model->damping()->isDiagonal(0));
     auto form = begin(system, *model);
     const ModalMatrices& m = model->matrices();
     const int n = form->n;
@@ -57,7 +57,7 @@ std::shared_ptr<const ModalForm> ModalForm::by_arrays_of(System& system) {
     form->S = m.S;
     for (int i = 0; i < n; ++i) {
         Oscillator o{model->frequency(i), 0};
-        if (const double* damping = model->diagonal_damping()) o.gamma = 0.5 * damping[i] / form->mass;
+        if (model->damping()) o.gamma = 0.5 * (*model->damping())(i, i) / form->mass;
         form->oscillators.push_back(o);
         form->weight.push_back(m.W[i] / form->mass);
         form->U.push_back(model->coupled() ? m.U[i] : 0);

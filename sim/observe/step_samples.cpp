@@ -53,9 +53,9 @@ void StepSamples::find_modes() {
     };
     if (modes_are_coordinates(system)) {
         const auto& modal = static_cast<const ModalModel&>(model);
-        const double* damping = modal.diagonal_damping();
+        const Eigen::MatrixXd* damping = modal.damping();
         for (int i = 0; i + 1 < model.size(); ++i)
-            add(modal.frequency(i), damping ? 0.5 * damping[i] / model.mass() : 0);
+            add(modal.frequency(i), damping ? 0.5 * (*damping)(i, i) / model.mass() : 0);
         return;
     }
     const NaturalModes& natural = system.natural_modes();

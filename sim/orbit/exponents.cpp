@@ -42,11 +42,7 @@ double longest_interval(const Problem& problem) {
     const double interval = std::min(own, cam_period(problem));
     System system(problem);
     const auto& model = dynamic_cast<const ModalModel&>(system.model());
-    const std::vector<double> damping = model.damping_matrix();
-    const int modes = system.coordinates() - 1;
-    double trace = 0;
-    for (int i = 0; !damping.empty() && i < modes; ++i)
-        trace += damping[static_cast<std::size_t>(i * (modes + 1))] / model.mass();
+    const double trace = model.damping() ? model.damping()->trace() / model.mass() : 0;
     return trace > 0 ? std::min(interval, kMaxDecay / trace) : interval;
 }
 

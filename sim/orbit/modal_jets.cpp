@@ -38,8 +38,6 @@ ModalJets::ModalJets(System& system)
       jt_(force_),
       hq_(force_) {
     if (system.has_cam()) expansion_.emplace(system);
-    if (const std::vector<double> c = model_.damping_matrix(); !c.empty())
-        damping_ = Eigen::Map<const Eigen::MatrixXd>(c.data(), modes_, modes_);
 }
 
 // Forces and inertia of hub and beam (S14).
@@ -56,7 +54,7 @@ void ModalJets::assemble(const JetState& s) {
         for (int j = 0; j < modes_; ++j) {
             bq += model_.inertia_matrix()(i, j) * q[j];
             if (shortened) gq += m.G(i, j) * q[j];
-            if (damping_.size() > 0) damping += damping_(i, j) * dq[j];
+            if (model_.damping()) damping += (*model_.damping())(i, j) * dq[j];
         }
         coriolis += bq * dq[i];
         qbq += bq * q[i];

@@ -67,7 +67,6 @@ class ModalJets {
     std::optional<ContactExpansion> expansion_;  // of a problem with a cam
     int n_, modes_;
     double baumgarte_rate_;
-    Eigen::MatrixXd damping_;  // C_d; empty: none
 
     // These belong to the present state.
     Jet inertia_;

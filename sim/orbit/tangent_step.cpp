@@ -45,9 +45,8 @@ TangentStep::TangentStep(System& probe, ModalJets& jets, const Eigen::VectorXd& 
       touch_level_(kFirstTouchLevel),
       y_(probe.size) {
     const auto& model = dynamic_cast<const ModalModel&>(probe.model());
-    const std::vector<double> damping = model.damping_matrix();
     for (int i = 0; i + 1 < n_; ++i) {
-        const double rate = damping.empty() ? 0 : damping[static_cast<std::size_t>(i * n_)] / model.mass();
+        const double rate = model.damping() ? (*model.damping())(i, i) / model.mass() : 0;
         oscillators_.push_back({model.frequency(i), 0.5 * rate});
     }
 }
