@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
 
 #include "sim/beam/model.hpp"
 
@@ -19,13 +18,8 @@ struct NaturalModes {
     Eigen::VectorXd damping;        // 2γ of z₁…z_n [1/s]; no damping law couples them
     double J = 0, S = 0;            // inertia [kg m²] and static moment [kg m] about the hinge
     Eigen::VectorXd U, weight;      // inertia shared with z₀, zero for a free hub [kg m]; W/m of gravity
-    // Bounds of each mode along the beam: displacement, wave number [1/m] (displacement times it bounds the rotation,
-    // times its square the curvature), and √∫ of the squared rotation [√m].
-    std::vector<double> shape, beta, slope_norm;
-    std::vector<double> h;  // θ = z₀ + h·z
 
   private:
-    void bound_shapes(Model& model, double bending_stiffness, double radius);
     void weigh(Model& model, double gravity);
 };
 

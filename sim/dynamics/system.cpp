@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <mutex>
 
 #include "sim/base/assert.hpp"
-#include "sim/beam/natural_modes.hpp"
 
 namespace beamcam::sim {
 namespace {
@@ -29,21 +27,9 @@ NormalLaw normal_law_of(const Problem& problem, const TurningCam& cam) {
 
 }  // namespace
 
-struct System::SharedModes {
-    std::once_flag once;
-    std::unique_ptr<const NaturalModes> modes;
-};
-
-const NaturalModes& System::natural_modes() const {
-    std::call_once(natural_modes_->once,
-                   [this] { natural_modes_->modes = std::make_unique<NaturalModes>(*model_, problem_); });
-    return *natural_modes_->modes;
-}
-
 System::System(const Problem& problem)
     : problem_(problem),
       model_(make_model(problem)),
-      natural_modes_(std::make_shared<SharedModes>()),
       drive_(problem.hub.drive, problem.initial.angle),
       cam_(problem),
       law_(normal_law_of(problem, cam_)),
@@ -64,7 +50,6 @@ System::System(const System& other)
     : Ode(other),
       problem_(other.problem_),
       model_(other.model_->clone()),
-      natural_modes_(other.natural_modes_),
       drive_(other.drive_),
       cam_(other.cam_),
       law_(other.law_),

@@ -18,8 +18,6 @@
 
 namespace beamcam::sim {
 
-struct NaturalModes;
-
 // The integrals of the energy balance (S38).
 enum Ledger : int {
     kLossStructural,
@@ -97,8 +95,6 @@ class System final : public Ode {
     // The same in the state of `set_state`, in flight or with the contact forces of `c`.
     double current_acceleration(double t, const ContactState& c, double* acc);
 
-    // Computed when first needed, and shared by copies.
-    const NaturalModes& natural_modes() const;
     double highest_frequency() const { return highest_frequency_; }
     // The largest damping ratio of a mode.
     double damping_ratio() const;
@@ -132,11 +128,8 @@ class System final : public Ode {
     bool assemble(double* f);         // false if the inertia is not positive
     void require_inertia(double* f);  // the same, but throws InertiaLost
 
-    struct SharedModes;
-
     Problem problem_;
     std::unique_ptr<Model> model_;
-    std::shared_ptr<SharedModes> natural_modes_;
     DriveLaw drive_;
     TurningCam cam_;
     NormalLaw law_;

@@ -11,11 +11,20 @@
 namespace beamcam::sim {
 namespace {
 
+constexpr int kPlacesPerWave = 32;       // where natural modes are evaluated for their largest values
+constexpr double kBetweenPlaces = 1.05;  // a sine between places a 32nd of a half wave apart: 1.0012
+
 void copy_rows(const Eigen::MatrixXd& m, double factor, std::vector<double>& out) {
     const Eigen::Index n = m.rows();
     out.resize(static_cast<std::size_t>(n * n));
     for (Eigen::Index i = 0; i < n; ++i)
         for (Eigen::Index j = 0; j < n; ++j) out[static_cast<std::size_t>(i * n + j)] = factor * m(i, j);
+}
+
+// Otherwise the oscillators are the natural modes.
+bool modes_are_coordinates(System& system) {
+    const auto* model = dynamic_cast<const ModalModel*>(&system.model());
+    return model && model->kind() != ModelKind::paper && (!model->coupled() || system.drive().prescribed());
 }
 
 }  // namespace
@@ -30,11 +39,6 @@ std::shared_ptr<ModalForm> ModalForm::begin(const System& system, const Model& m
     form->radius = system.problem().hub.radius;
     form->length = model.length();
     return form;
-}
-
-bool modes_are_coordinates(System& system) {
-    const auto* model = dynamic_cast<const ModalModel*>(&system.model());
-    return model && model->kind() != ModelKind::paper && (!model->coupled() || system.drive().prescribed());
 }
 
 bool ModalForm::exists(System& system) {
@@ -92,9 +96,9 @@ void ModalForm::transform(const Eigen::MatrixXd& by, double* state) const {
 // Without vibration Θ = z₀; a mode rotates the frame against the mean rigid rotation, and its modal mass is that of the
 // beam.
 std::shared_ptr<const ModalForm> ModalForm::of_natural_modes(System& system) {
-    const Model& model = system.model();
+    Model& model = system.model();
     const Eigen::Index n = model.size() - 1;
-    const NaturalModes& modes = system.natural_modes();
+    const NaturalModes modes(model, system.problem());
     auto form = begin(system, model);
     form->natural = modes.shapes;
     form->to_natural = modes.inverse;
@@ -108,14 +112,40 @@ std::shared_ptr<const ModalForm> ModalForm::of_natural_modes(System& system) {
         BEAMCAM_ASSERT(modes.omega_squared[i] > 0);
         form->oscillators.push_back({std::sqrt(modes.omega_squared[i]), 0.5 * modes.damping[i]});
     }
-    form->shape = modes.shape;
-    form->beta = modes.beta;
-    form->slope_norm = modes.slope_norm;
-    form->h = modes.h;
+    form->bound_shapes(model, system.problem().beam.bending_stiffness());
     form->weight.assign(modes.weight.begin(), modes.weight.end());
     form->U.assign(modes.U.begin(), modes.U.end());
     form->inertia_root.assign(form->U.size(), 0);
     return form;
+}
+
+// From the largest displacement, rotation of the tangent and curvature of the straight beam at many places; a margin
+// covers the values between them.
+void ModalForm::bound_shapes(Model& model, double bending_stiffness) {
+    const Eigen::Index count = natural.rows(), places = kPlacesPerWave * count;
+    const double none[kMaxSize] = {};
+    Eigen::VectorXd x(count), y(count), rotation(count);
+    Eigen::ArrayXd displacement = Eigen::ArrayXd::Zero(count), slope = displacement, curvature = displacement;
+    const auto place = [&](Eigen::Index k) { return length * static_cast<double>(k) / static_cast<double>(places); };
+    model.set(none, none);
+    for (Eigen::Index k = 0; k <= places; ++k) {
+        model.jacobian(place(k), x.data(), y.data(), rotation.data());
+        displacement = displacement.max((natural.transpose() * y).array().abs());
+        slope = slope.max((natural.transpose() * rotation).array().abs());
+    }
+    for (Eigen::Index i = 1; i < count; ++i) {
+        model.set(natural.col(i).data(), none);
+        for (Eigen::Index k = 0; k <= places; ++k)
+            curvature[i] = std::max(curvature[i], std::fabs(model.bending_moment(place(k)) / bending_stiffness));
+    }
+    const Eigen::VectorXd hub = natural.transpose() * Eigen::Map<const Eigen::VectorXd>(model.hub_row(), count);
+    for (Eigen::Index i = 1; i < count; ++i) {
+        h.push_back(hub[i]);
+        shape.push_back(kBetweenPlaces * (displacement[i] + std::fabs(radius * hub[i])));
+        beta.push_back(std::max(kBetweenPlaces * slope[i] / shape.back(),
+                                std::sqrt(kBetweenPlaces * curvature[i] / shape.back())));
+        slope_norm.push_back(std::sqrt(length) * shape.back() * beta.back());
+    }
 }
 
 }  // namespace beamcam::sim

@@ -13,9 +13,6 @@
 
 namespace beamcam::sim {
 
-// Otherwise the oscillators are the natural modes.
-bool modes_are_coordinates(System& system);
-
 struct ModalForm {
     // Other models and shapes have no such form: Runge and Kutta's method integrates them.
     static bool exists(System& system);
@@ -41,8 +38,8 @@ struct ModalForm {
     std::vector<double> weight;        // W/m
     std::vector<double> U;             // [kg m], zero for a free hub
     std::vector<double> h;             // θ = Θ + h·q
-    std::vector<double> beta;          // wave numbers of the shapes [1/m]
-    std::vector<double> shape;         // their largest values, at most
+    std::vector<double> shape;         // largest values of the shapes, at most
+    std::vector<double> beta;          // wave numbers: shape times it bounds the slope, times its square the curvature
     std::vector<double> inertia_root;  // c with |B_ij| <= c_i c_j [√kg]
     std::vector<double> slope_norm;    // √∫φ′², if the beam shortens [1/√m]
 
@@ -50,6 +47,7 @@ struct ModalForm {
     static std::shared_ptr<ModalForm> begin(const System& system, const Model& model);
     static std::shared_ptr<const ModalForm> by_arrays_of(System& system);
     static std::shared_ptr<const ModalForm> of_natural_modes(System& system);
+    void bound_shapes(Model& model, double bending_stiffness);
     void transform(const Eigen::MatrixXd& by, double* state) const;
 };
 

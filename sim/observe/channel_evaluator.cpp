@@ -5,8 +5,6 @@
 #include <limits>
 #include <numbers>
 
-#include "sim/beam/natural_modes.hpp"
-
 namespace beamcam::sim {
 
 ChannelEvaluator::ChannelEvaluator(const System& system)
@@ -220,6 +218,11 @@ const double* ChannelEvaluator::acceleration() {
     return acceleration_;
 }
 
+const NaturalModes& ChannelEvaluator::natural_modes() {
+    if (!natural_modes_) natural_modes_.emplace(system_.model(), system_.problem());
+    return *natural_modes_;
+}
+
 double ChannelEvaluator::hub_acceleration() {
     const double *row = model().hub_row(), *acc = acceleration();
     double total = 0;
@@ -247,7 +250,7 @@ double ChannelEvaluator::resisted_force() {
     const ContactState& c = contact();
     Eigen::VectorXd jx(n), jy(n), jchi(n);
     beam.jacobian(c.x, jx.data(), jy.data(), jchi.data());
-    const NaturalModes& modes = system_.natural_modes();
+    const NaturalModes& modes = natural_modes();
     const Eigen::VectorXd row = modes.shapes.transpose() * (c.normal.x * jx + c.normal.y * jy), z = modes.inverse * acc;
     const double moved = row.tail(n - 1).dot(z.tail(n - 1)), size = row.tail(n - 1).squaredNorm();
     return std::clamp(c.force - (size > 0 ? beam.mass() * moved / size : 0), 0.0, std::max(0.0, c.force));

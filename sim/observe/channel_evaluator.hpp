@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "sim/beam/natural_modes.hpp"
 #include "sim/cam/lever.hpp"
 #include "sim/dynamics/system.hpp"
 #include "sim/observe/beam_loads.hpp"
@@ -35,6 +36,7 @@ class ChannelEvaluator {
     void set_gap(double gap, double force);
     void set_contact(const ContactState& contact);
     const ContactState& contact();
+    const NaturalModes& natural_modes();  // of the straight beam
 
   private:
     const double* acceleration();  // ξ̈
@@ -65,6 +67,7 @@ class ChannelEvaluator {
     ContactState contact_;
     double acceleration_[kMaxSize] = {}, drive_power_ = 0;
     std::optional<BeamLoads> loads_, resisted_loads_;
+    std::optional<NaturalModes> natural_modes_;
     std::optional<Lever> lever_;
     bool loads_known_ = false, largest_known_ = false;
     Vec2 largest_moment_;  // its place, and its magnitude

@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/beam/modal_model.hpp"
-#include "sim/beam/natural_modes.hpp"
 #include "sim/integrate/collocation.hpp"
-#include "sim/integrate/modal_form.hpp"
 #include "sim/integrate/step_errors.hpp"
 
 namespace beamcam::sim {
@@ -40,50 +37,25 @@ struct StepSamples::Needs {
 
 StepSamples::StepSamples(ChannelEvaluator& evaluator)
     : evaluator_(evaluator), probe_(evaluator.system()), y_(static_cast<std::size_t>(evaluator.system().size)) {
-    find_modes();
-}
-
-void StepSamples::find_modes() {
-    System& system = evaluator_.system();
-    const Model& model = system.model();
-    const auto add = [&](double omega, double gamma) {
-        const bool vibrates = gamma < omega;
-        modes_.push_back({omega, vibrates ? gamma : gamma + std::sqrt(gamma * gamma - omega * omega), vibrates});
-        fastest_decay_ = std::max(fastest_decay_, modes_.back().decay);
-    };
-    if (modes_are_coordinates(system)) {
-        const auto& modal = static_cast<const ModalModel&>(model);
-        const Eigen::MatrixXd* damping = modal.damping();
-        for (int i = 0; i + 1 < model.size(); ++i)
-            add(modal.frequency(i), damping ? 0.5 * (*damping)(i, i) / model.mass() : 0);
-        return;
-    }
-    const NaturalModes& natural = system.natural_modes();
-    const Eigen::Index n = natural.omega_squared.size();
-    for (Eigen::Index i = 0; i < n; ++i)
-        add(std::sqrt(std::max(0.0, natural.omega_squared[i])), 0.5 * natural.damping[i]);
-    for (Eigen::Index i = 0; i < n; ++i)
-        for (Eigen::Index j = 0; j < n; ++j) to_modes_.push_back(natural.inverse(i + 1, j + 1));
+    const Eigen::Index n = evaluator.system().coordinates() - 1;
+    if (n == 0) return;
+    const NaturalModes& natural = evaluator.natural_modes();
+    to_modes_ = natural.inverse.bottomRightCorner(n, n);
+    omega_ = natural.omega_squared.cwiseMax(0).cwiseSqrt();
+    const Eigen::ArrayXd gamma = 0.5 * natural.damping, excess = gamma.square() - omega_.square();
+    vibration_ = (excess < 0).select(omega_, 0);
+    decay_ = gamma + excess.max(0).sqrt();
 }
 
 // Twice the kinetic energy of each mode per mass of the beam; or its whole energy at the start of a motion, which may
 // rest far from equilibrium. Later the deflection follows the forcing without vibration.
-const std::vector<double>& StepSamples::modal_energies(double t, bool whole) {
+Eigen::ArrayXd StepSamples::modal_energies(double t, bool whole) {
     step_.segment->value(t, y_.data());
-    const std::size_t n = modes_.size();
-    const double *q = y_.data() + 1, *rate = q + n + 1;
-    const auto mode = [&](const double* x, std::size_t i) {
-        if (to_modes_.empty()) return x[i];
-        double z = 0;
-        for (std::size_t j = 0; j < n; ++j) z += to_modes_[i * n + j] * x[j];
-        return z;
-    };
-    energies_.resize(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        const double speed = mode(rate, i), deflected = whole ? modes_[i].omega * mode(q, i) : 0;
-        energies_[i] = speed * speed + deflected * deflected;
-    }
-    return energies_;
+    const Eigen::Index n = omega_.size();
+    const Eigen::Map<const Eigen::VectorXd> q(y_.data() + 1, n), rate(y_.data() + n + 2, n);
+    Eigen::ArrayXd energies = (to_modes_ * rate).array().square();
+    if (whole) energies += (omega_ * (to_modes_ * q).array()).square();
+    return energies;
 }
 
 // A vibration that fades early in the step is sampled in parts whose lengths grow from the start by a constant factor.
@@ -93,12 +65,10 @@ void StepSamples::find_parts() {
     const bool solved =
         touch && std::ranges::all_of(channels_, [&](Channel c) { return touch_channel(*touch, c.kind) != nullptr; });
     const double length = step_.to - step_.from;
-    double decay = 0, energy = 0;
-    if (fastest_decay_ * length > kFadedDecays && !solved) {
-        const std::vector<double>& energies = modal_energies(step_.from, step_.from == 0);
-        for (const double e : energies) energy += e;
-        for (std::size_t i = 0; i < modes_.size(); ++i)
-            if (energies[i] > kNegligibleEnergy * energy) decay = std::max(decay, modes_[i].decay);
+    double decay = 0;
+    if (omega_.size() > 0 && decay_.maxCoeff() * length > kFadedDecays && !solved) {
+        const Eigen::ArrayXd energies = modal_energies(step_.from, step_.from == 0);
+        decay = (energies > kNegligibleEnergy * energies.sum()).select(decay_, 0).maxCoeff();
     }
     parts_.clear();
     double to = step_.to;
@@ -119,17 +89,10 @@ void StepSamples::find_parts() {
 
 // The highest frequency whose share of the vibration's energy matters in the part [rad/s].
 double StepSamples::fastest(const Instants& part) {
-    largest_.assign(modes_.size(), 0);
-    for (const double t : part) {
-        const std::vector<double>& energies = modal_energies(t, false);
-        for (std::size_t i = 0; i < largest_.size(); ++i) largest_[i] = std::max(largest_[i], energies[i]);
-    }
-    double energy = 0, highest = 0;
-    for (const double e : largest_) energy += e;
-    for (std::size_t i = 0; i < largest_.size(); ++i)
-        if (largest_[i] > kNegligibleEnergy * energy && modes_[i].vibrates)
-            highest = std::max(highest, modes_[i].omega);
-    return highest;
+    if (omega_.size() == 0) return 0;
+    Eigen::ArrayXd largest = Eigen::ArrayXd::Zero(omega_.size());
+    for (const double t : part) largest = largest.max(modal_energies(t, false));
+    return (largest > kNegligibleEnergy * largest.sum()).select(vibration_, 0).maxCoeff();
 }
 
 const TouchSamples* StepSamples::touch_at(const Instants& part) const {

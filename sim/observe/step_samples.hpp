@@ -36,12 +36,7 @@ class StepSamples {
   private:
     static constexpr std::size_t kCount = kNodes + 2;  // both ends and the Gauss nodes
     using Instants = std::array<double, kCount>;
-    struct Mode {
-        double omega, decay;  // its frequency without damping; the rate of its fastest decay [1/s]
-        bool vibrates;        // below critical damping
-    };
-    void find_modes();
-    const std::vector<double>& modal_energies(double t, bool whole);
+    Eigen::ArrayXd modal_energies(double t, bool whole);
     void find_parts();
     double fastest(const Instants& part);
     // The contact at the ends and nodes of the part where the step solved for it there.
@@ -58,9 +53,10 @@ class StepSamples {
 
     ChannelEvaluator& evaluator_;
     GapProbe probe_;
-    std::vector<Mode> modes_;
-    double fastest_decay_ = 0;
-    std::vector<double> to_modes_;  // the modes by the coordinates, row-major; empty: they are the same
+    Eigen::MatrixXd to_modes_;  // the natural modes by the coordinates
+    // Of each mode [1/s]: frequency without damping; the same, but 0 beyond critical damping; rate of the fastest
+    // decay.
+    Eigen::ArrayXd omega_, vibration_, decay_;
     SegmentInterval step_{};
     std::vector<Channel> channels_;  // that are sampled
     std::vector<Series> series_;
@@ -72,7 +68,7 @@ class StepSamples {
     std::vector<Nodes> nodes_;  // of each channel in the present part
     std::vector<Instants> parts_;
     std::vector<std::size_t> sampled_;
-    std::vector<double> y_, energies_, largest_;
+    std::vector<double> y_;
 };
 
 }  // namespace beamcam::sim
