@@ -101,11 +101,15 @@ ContactState System::current_contact(double t, const double* y) {
         add_torque(t, acc);
         constrain(t, c, acc, true);
     } else if (phase_.touching) {
-        c.factor = law_.factor(-c.gap_rate, phase_.approach);
-        c.force = law_.at(c.disc.radius).force(-c.gap, -c.gap_rate, phase_.approach);
-        c.friction = friction_.force(phase_.friction, c.force, c.slip, bristle(y));
+        add_forces(c, y);
     }
     return c;
+}
+
+void System::add_forces(ContactState& c, const double* y) const {
+    c.factor = law_.factor(-c.gap_rate, phase_.approach);
+    c.force = law_.at(c.disc.radius).force(-c.gap, -c.gap_rate, phase_.approach);
+    c.friction = friction_.force(phase_.friction, c.force, c.slip, bristle(y));
 }
 
 // With a prescribed hub only the inertia of the beam matters, which is always positive.
@@ -259,13 +263,6 @@ System::EnergyBalance System::balance_without_beam(const double* y, const Contac
     b.work_cam = ledger[kWorkCam];
     b.work_drive = ledger[kWorkDrive];
     return b;
-}
-
-double System::acceleration(double t, const double* y, double* acc) {
-    double dy[2 * kMaxSize + 1 + kLedgerSize];
-    rhs(t, y, dy);
-    std::copy_n(dy + n_, n_, acc);
-    return dy[controlled + kWorkDrive];
 }
 
 double System::current_acceleration(double t, const ContactState& c, double* acc) {

@@ -70,6 +70,8 @@ class System final : public Ode {
     ContactState contact(double t, const double* y);
     // The contact of the state of `set_state`.
     ContactState current_contact(double t, const double* y);
+    // The forces of compliant contact with this geometry.
+    void add_forces(ContactState& c, const double* y) const;
 
     // After `contact`: f ← generalized forces in that state with the normal force `normal` [N] and its Coulomb
     // friction; array of `coordinates`. False if the inertia is not positive.
@@ -90,9 +92,8 @@ class System final : public Ode {
     // All but the energies of the beam and the hub's spring. Of the contact, if it stores energy, only the gap counts
     // and, with a bristle, the force.
     EnergyBalance balance_without_beam(const double* y, const ContactState& c) const;
-    // ξ̈ at (t, y) in the present phase; array of `coordinates`. Returns the power of the drive [W].
-    double acceleration(double t, const double* y, double* acc);
-    // The same in the state of `set_state`, in flight or with the contact forces of `c`.
+    // ξ̈ in the state of `set_state`, in contact with the forces of `c`; array of `coordinates`. Returns the power of
+    // the drive [W].
     double current_acceleration(double t, const ContactState& c, double* acc);
 
     double highest_frequency() const { return highest_frequency_; }

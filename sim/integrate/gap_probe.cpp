@@ -17,7 +17,7 @@ GapProbe::GapProbe(System& system) : system_(system) {
 
 ContactState GapProbe::evaluate(double t, const double* y) {
     ContactState c;
-    if (!expansion_ || !expanded(t, y, c)) return system_.contact(t, y);
+    if (!expansion_ || system_.phase().held || !expanded(t, y, c)) return system_.contact(t, y);
     ++system_.gap_evaluations;
     return c;
 }
@@ -52,7 +52,9 @@ bool GapProbe::expanded(double t, const double* y, ContactState& c) {
         c.gap_rate = touch.gap_rate;
         c.slip = touch.slip;
         c.normal = {touch.nx * frame.cos - touch.ny * frame.sin, touch.nx * frame.sin + touch.ny * frame.cos};
+        c.tangent = -perp(c.normal);
         c.disc = cam.disc(t, c.normal);
+        if (system_.phase().touching) system_.add_forces(c, y);
         return true;
     }
     return false;

@@ -1,4 +1,4 @@
-// The gap in flight at many instants: the shapes are expanded about the foot of the contact, so that an evaluation
+// The contact at many instants: the shapes are expanded about the foot of the contact, so that an evaluation
 // costs as many operations as there are modes (the integral of v′², their square), and shapes are evaluated only when
 // the foot leaves the range of the expansion. For nearly straight beams of the models that the collocation integrates;
 // otherwise it calls System::contact.
@@ -16,8 +16,7 @@ class GapProbe {
     // The system must outlive the probe.
     explicit GapProbe(System& system);
 
-    // Gap, its rate, slip, x and the normal of the contact as System::contact has them, to rounding; nothing else is
-    // filled in.
+    // As System::contact has it, to rounding, but for `at_end` and `side`.
     ContactState evaluate(double t, const double* y);
 
   private:

@@ -4,17 +4,17 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 namespace beamcam::sim {
 
 ChannelEvaluator::ChannelEvaluator(const System& system)
-    : system_(system), y_(static_cast<std::size_t>(system_.size)) {}
+    : system_(system), probe_(system_), y_(static_cast<std::size_t>(system_.size)) {}
 
 void ChannelEvaluator::set(double t, const double* y) {
     t_ = t;
     std::copy_n(y, y_.size(), y_.begin());
-    placed_ = balance_known_ = energies_known_ = contact_known_ = forces_known_ = acceleration_known_ = false;
-    loads_known_ = largest_known_ = false;
+    placed_ = balance_known_ = contact_known_ = acceleration_known_ = loads_known_ = largest_known_ = false;
 }
 
 Model& ChannelEvaluator::model() {
@@ -24,16 +24,15 @@ Model& ChannelEvaluator::model() {
 }
 
 const ContactState& ChannelEvaluator::contact() {
-    if (!contact_known_) {
-        contact_ = system_.contact(t_, y_.data());
-        contact_known_ = placed_ = true;
-    }
+    if (!contact_known_) contact_ = probe_.evaluate(t_, y_.data());
+    contact_known_ = true;
     return contact_;
 }
 
 const System::EnergyBalance& ChannelEvaluator::energy_balance() {
     if (!balance_known_) {
-        balance_ = balance_without_beam();
+        balance_ =
+            system_.balance_without_beam(y_.data(), system_.contact_stores_energy() ? contact() : ContactState{});
         balance_.energies = model().energies();
         balance_.spring = spring_energy();
         balance_known_ = true;
@@ -41,75 +40,38 @@ const System::EnergyBalance& ChannelEvaluator::energy_balance() {
     return balance_;
 }
 
-System::EnergyBalance ChannelEvaluator::balance_without_beam() {
-    if (balance_known_) return balance_;
-    return system_.balance_without_beam(y_.data(), system_.contact_stores_energy() ? contact() : ContactState{});
+// Of the coordinates, or of the rates that follow them in the state; y_[0] and y_[n] are those of the hub.
+double ChannelEvaluator::component(int index, int first) const {
+    return index < system_.coordinates() ? y_[static_cast<std::size_t>(first + index)] : kNan;
 }
 
-// In contact the whole balance needs the gap.
-const Energies& ChannelEvaluator::energies() {
-    if (energies_known_) return energies_;
-    if (balance_known_ || !system_.phase().touching) return energy_balance().energies;
-    energies_ = model().energies();
-    energies_known_ = true;
-    return energies_;
-}
-
-void ChannelEvaluator::set_contact(const ContactState& contact) {
-    contact_ = contact;
-    contact_.tangent = -perp(contact.normal);
-    contact_known_ = true;
-    forces_known_ = !system_.phase().touching || system_.friction().none();
-}
-
-void ChannelEvaluator::set_gap(double gap, double force) {
-    ContactState c;
-    c.gap = gap;
-    c.force = force;
-    set_contact(c);
-}
-
-// A prescribed hub has the angle of its drive.
-bool ChannelEvaluator::is_of_coordinates(Channel channel) const {
-    return channel.kind == ChannelKind::t || channel.kind == ChannelKind::q ||
-           (channel.kind == ChannelKind::theta && !system_.drive().prescribed());
-}
-
-double ChannelEvaluator::value_of_coordinates(Channel channel, double t, const double* y) {
-    if (channel.kind == ChannelKind::t) return t;
-    if (channel.kind == ChannelKind::q) return channel.index < system_.coordinates() ? y[channel.index] : kNan;
+// A prescribed hub has the angle of its drive; that of another one does not need the model's state.
+double ChannelEvaluator::hub_angle() {
+    if (system_.drive().prescribed()) return model().hub_angle();
     const double* row = system_.model().hub_row();
-    double theta = 0;
-    for (int i = 0; i < system_.coordinates(); ++i) theta += row[i] * y[i];
-    return theta;
-}
-
-// The rates follow the coordinates in the state.
-double ChannelEvaluator::rate_of_mode(int index) const {
-    const int n = system_.coordinates();
-    return index < n ? y_[static_cast<std::size_t>(n + index)] : kNan;
+    return std::inner_product(row, row + system_.coordinates(), y_.begin(), 0.0);
 }
 
 double ChannelEvaluator::value(Channel channel) {
-    if (is_of_coordinates(channel)) return value_of_coordinates(channel, t_, y_.data());
     if (traits(channel.kind).needs_cam && !system_.has_cam()) return kNan;
     switch (channel.kind) {
         case ChannelKind::t:
+            return t_;
         case ChannelKind::q:
-            break;
+            return component(channel.index, 0);
         case ChannelKind::theta:
-            return model().hub_angle();
+            return hub_angle();
         case ChannelKind::q_dot:
-            return rate_of_mode(channel.index);
+            return component(channel.index, system_.coordinates());
         case ChannelKind::theta_dot:
             return model().hub_rate();
         case ChannelKind::tip_deflection:
         case ChannelKind::tip_rate:
             return tip(channel.kind);
         case ChannelKind::contact_force:
-            return contact().force;
+            return system_.phase().touching ? contact().force : 0;
         case ChannelKind::friction_force:
-            return contact().friction;
+            return system_.phase().touching ? contact().friction : 0;
         case ChannelKind::gap:
             return contact().gap;
         case ChannelKind::contact_x:
@@ -119,13 +81,13 @@ double ChannelEvaluator::value(Channel channel) {
         case ChannelKind::cam_angle:
             return system_.cam().angle(t_);
         case ChannelKind::energy_kinetic:
-            return energies().kinetic;
+            return energy_balance().energies.kinetic;
         case ChannelKind::energy_potential:
-            return energies().gravity;
+            return energy_balance().energies.gravity;
         case ChannelKind::energy_elastic:
-            return energies().elastic;
+            return energy_balance().energies.elastic;
         case ChannelKind::energy_contact:
-            return balance_without_beam().contact;
+            return energy_balance().contact;
         case ChannelKind::energy_spring:
             return spring_energy();
         case ChannelKind::loss_hub:
@@ -133,9 +95,9 @@ double ChannelEvaluator::value(Channel channel) {
         case ChannelKind::loss_structural:
             return ledger(kLossStructural);
         case ChannelKind::loss_contact:
-            return balance_without_beam().loss_contact;
+            return energy_balance().loss_contact;
         case ChannelKind::loss_friction:
-            return balance_without_beam().loss_friction;
+            return energy_balance().loss_friction;
         case ChannelKind::work_cam:
             return ledger(kWorkCam);
         case ChannelKind::work_drive:
@@ -203,17 +165,11 @@ double ChannelEvaluator::separation(ChannelKind kind) {
     return acceleration * arm + (kind == ChannelKind::separation ? pull : -pull);
 }
 
-// In contact with the forces of `contact`, where they are known.
 const double* ChannelEvaluator::acceleration() {
     if (acceleration_known_) return acceleration_;
-    const bool touching = system_.phase().touching;
     model();
-    if (forces_known_ || !touching) {
-        drive_power_ = system_.current_acceleration(t_, touching ? contact() : ContactState{}, acceleration_);
-    } else {
-        drive_power_ = system_.acceleration(t_, y_.data(), acceleration_);
-        system_.set_state(t_, y_.data());
-    }
+    const ContactState c = system_.phase().touching ? contact() : ContactState{};
+    drive_power_ = system_.current_acceleration(t_, c, acceleration_);
     acceleration_known_ = true;
     return acceleration_;
 }

@@ -7,34 +7,29 @@
 #include "sim/beam/natural_modes.hpp"
 #include "sim/cam/lever.hpp"
 #include "sim/dynamics/system.hpp"
+#include "sim/integrate/gap_probe.hpp"
 #include "sim/observe/beam_loads.hpp"
 #include "sim/observe/channels.hpp"
 #include "sim/observe/pose.hpp"
 
 namespace beamcam::sim {
 
-// Channel values at one instant; the state of the model, energies, contact and accelerations are computed once, when
-// first needed.
+// Channel values at one instant; the state of the model, energy balance, contact and accelerations are computed once,
+// when first needed.
 class ChannelEvaluator {
   public:
     explicit ChannelEvaluator(const System& system);
+    ChannelEvaluator(const ChannelEvaluator&) = delete;  // its probe refers to its system
+    ChannelEvaluator& operator=(const ChannelEvaluator&) = delete;
     void set_phase(const Phase& phase) { system_.set_phase(phase); }
     void set_start_energy(double total) { start_total_ = total; }
     void set(double t, const double* y);
     double value(Channel channel);
-    // Needs no `set`: of channels that depend on the time and the coordinates, the first components of y, alone.
-    bool is_of_coordinates(Channel channel) const;
-    double value_of_coordinates(Channel channel, double t, const double* y);
     Pose pose(int stations);
     System& system() { return system_; }
     const System& system() const { return system_; }
     Model& model();  // in that state
     const System::EnergyBalance& energy_balance();
-    const Energies& energies();
-    // Both spare a computation whose result at this instant is available. The first is enough for the energy balance;
-    // other channels of the contact are undefined until the next `set`.
-    void set_gap(double gap, double force);
-    void set_contact(const ContactState& contact);
     const ContactState& contact();
     const NaturalModes& natural_modes();  // of the straight beam
 
@@ -43,9 +38,9 @@ class ChannelEvaluator {
     const BeamLoads& loads();
     double hub_acceleration();  // θ̈
     double spring_energy();
-    System::EnergyBalance balance_without_beam();  // perhaps with the beam's energies
     double ledger(Ledger entry) const { return y_[static_cast<std::size_t>(system_.controlled + entry)]; }
-    double rate_of_mode(int index) const;
+    double component(int index, int first) const;
+    double hub_angle();
     double tip(ChannelKind kind);
     double place_on_rim();
     double followed_angle();  // of a straight lever
@@ -57,13 +52,12 @@ class ChannelEvaluator {
     double drive_power();
 
     System system_;
+    GapProbe probe_;
     double t_ = 0, start_total_ = 0;
     std::vector<double> y_;
     bool placed_ = false;  // the model is in that state
-    bool balance_known_ = false, energies_known_ = false, contact_known_ = false, acceleration_known_ = false;
-    bool forces_known_ = false;  // of the contact set by `set_contact`
+    bool balance_known_ = false, contact_known_ = false, acceleration_known_ = false;
     System::EnergyBalance balance_;
-    Energies energies_;
     ContactState contact_;
     double acceleration_[kMaxSize] = {}, drive_power_ = 0;
     std::optional<BeamLoads> loads_, resisted_loads_;

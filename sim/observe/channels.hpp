@@ -22,12 +22,10 @@ struct ChannelLabel {
 
 // Properties of a channel that its evaluation uses.
 struct ChannelTraits {
-    bool needs_cam = false;      // undefined without a cam
-    bool needs_contact = false;  // its geometry
-    bool needs_force = false;    // forces or energy of the contact, which flight does not have
-    bool of_mode = false;        // of one modal coordinate: its name contains the number of the mode
-    bool accelerated = false;    // follows from ξ̈: as rough as the contact force
-    bool squared = false;        // a square or a magnitude: it vibrates twice as fast as the beam
+    bool needs_cam = false;    // undefined without a cam
+    bool of_mode = false;      // of one modal coordinate: its name contains the number of the mode
+    bool accelerated = false;  // follows from ξ̈: as rough as the contact force
+    bool squared = false;      // a square or a magnitude: it vibrates twice as fast as the beam
 };
 
 enum class ChannelKind {

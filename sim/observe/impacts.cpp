@@ -22,13 +22,12 @@ void ImpactRecorder::touch(double t, const double* y, const ContactState& c) {
     Impact impact;
     impact.t_start = t;
     impact.x = c.x;
-    const TurningCam& cam = evaluator_.system().cam();
-    impact.cam_angle = cam.angle(t);
-    impact.s = cam.place(t, c.normal);
+    impact.cam_angle = evaluator_.system().cam().angle(t);
     impact.v_n_before = c.gap_rate;
     impact.v_t_before = c.slip;
     impact.penetration_peak = std::max(0.0, -c.gap);
     impact.at_touch = touch_state(t, y, c);
+    impact.s = impact.at_touch->contact_s;
     if (evaluator_.system().problem().contact.model == ContactModel::compliant)
         impact.force_peak = c.force, impact.t_peak = t;
     Collision& collision = collision_of(t, c);
@@ -93,11 +92,10 @@ void ImpactRecorder::settle(const double* y) {
 
 TouchState ImpactRecorder::touch_state(double t, const double* y, const ContactState& c) {
     evaluator_.set(t, y);
-    evaluator_.set_contact(c);
     TouchState out;
     out.theta = evaluator_.value({ChannelKind::theta});
     out.theta_dot = evaluator_.value({ChannelKind::theta_dot});
-    out.contact_s = evaluator_.value({ChannelKind::contact_s});
+    out.contact_s = evaluator_.system().cam().place(t, c.normal);
     out.q.assign(y + 1, y + evaluator_.system().coordinates());
     return out;
 }

@@ -127,9 +127,6 @@ void Recorder::note_balance() {
 void Recorder::record_balance(const SegmentInterval& s) {
     s.segment->value(s.to, y_.data());
     evaluator_.set(s.to, y_.data());
-    constexpr int kLast = TouchSamples::kCount - 1;
-    const TouchSamples* samples = s.segment->touch();
-    if (samples && s.to == s.segment->t1) evaluator_.set_gap(samples->gap[kLast], samples->force[kLast]);
     note_balance();
 }
 

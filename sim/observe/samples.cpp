@@ -109,11 +109,6 @@ void SampleRecorder::evaluate_at(const SegmentInterval& s, double t) {
 const std::vector<double>& SampleRecorder::row(const SegmentInterval& s, double t,
                                                const std::vector<Channel>& channels) {
     row_.clear();
-    if (std::ranges::all_of(channels, [&](Channel c) { return evaluator_.is_of_coordinates(c); })) {
-        s.segment->value(std::max(t, s.from), y_.data());
-        for (const Channel channel : channels) row_.push_back(evaluator_.value_of_coordinates(channel, t, y_.data()));
-        return row_;
-    }
     evaluate_at(s, t);
     for (const Channel channel : channels) row_.push_back(evaluator_.value(channel));
     return row_;

@@ -29,14 +29,8 @@ const double* touch_channel(const TouchSamples& touch, ChannelKind kind) {
 
 }  // namespace
 
-struct StepSamples::Needs {
-    bool state = false;    // more than the coordinates
-    bool contact = false;  // its geometry and, in contact, forces
-    bool squared = false;  // it vibrates twice as fast as the beam
-};
-
 StepSamples::StepSamples(ChannelEvaluator& evaluator)
-    : evaluator_(evaluator), probe_(evaluator.system()), y_(static_cast<std::size_t>(evaluator.system().size)) {
+    : evaluator_(evaluator), y_(static_cast<std::size_t>(evaluator.system().size)) {
     const Eigen::Index n = evaluator.system().coordinates() - 1;
     if (n == 0) return;
     const NaturalModes& natural = evaluator.natural_modes();
@@ -136,15 +130,16 @@ void StepSamples::sample_part(const Instants& part, const NeedsMore& needs_more,
         }
         if (sampled_.empty()) continue;
         if (frequency < 0) frequency = fastest(part);
-        const Needs needs = needs_of(sampled_);
-        const double length = part[k + 1] - part[k], rate = needs.squared ? 2 * frequency : frequency;
+        const bool squared =
+            std::ranges::any_of(sampled_, [&](std::size_t c) { return traits(channels_[c].kind).squared; });
+        const double length = part[k + 1] - part[k], rate = squared ? 2 * frequency : frequency;
         const int pieces = static_cast<int>(std::min(kMostSamples, std::ceil(kSamplesPerRadian * rate * length)));
         for (int j = 1; j < pieces; ++j) {
             const double t = part[k] + length * j / pieces;
-            place(t, needs);
+            place(t);
             for (const std::size_t c : sampled_) {
                 series_[c].t.push_back(t);
-                series_[c].value.push_back(read(channels_[c], t));
+                series_[c].value.push_back(evaluator_.value(channels_[c]));
             }
         }
     }
@@ -160,10 +155,9 @@ void StepSamples::evaluate_nodes(const Instants& part, const NeedsMore& needs_mo
         of.only_ends = !known && ends_suffice(part, c, needs_more, see);
         if (!known && !of.only_ends) sampled_.push_back(c);
     }
-    const Needs needs = needs_of(sampled_);
     for (std::size_t k = 0; k < kCount && !sampled_.empty(); ++k) {
-        place(part[k], needs);
-        for (const std::size_t c : sampled_) nodes_[c].value[k] = read(channels_[c], part[k]);
+        place(part[k]);
+        for (const std::size_t c : sampled_) nodes_[c].value[k] = evaluator_.value(channels_[c]);
     }
     for (std::size_t c = 0; c < channels_.size(); ++c) {
         Nodes& of = nodes_[c];
@@ -185,10 +179,8 @@ bool StepSamples::ends_suffice(const Instants& part, std::size_t channel, const 
     const auto bounds = step_.segment->bounds();
     if (!is_gap_in_flight(channel) || !bounds || !system.has_cam()) return false;
     Nodes& of = nodes_[channel];
-    const Needs needs = needs_of({&channel, 1});
     for (const std::size_t k : {std::size_t{0}, kCount - 1}) {
-        place(part[k], needs);
-        of.value[k] = read(channels_[channel], part[k]);
+        of.value[k] = value(channels_[channel], part[k]);
         if (see) see(channel, part[k], of.value[k]);
     }
     const Problem& problem = system.problem();
@@ -200,53 +192,14 @@ bool StepSamples::ends_suffice(const Instants& part, std::size_t channel, const 
     return !needs_more(channel, std::max(low, stray), high, stray);
 }
 
-StepSamples::Needs StepSamples::needs_of(std::span<const std::size_t> channels) const {
-    const System& system = evaluator_.system();
-    const bool touching = system.phase().touching;
-    Needs out;
-    for (const std::size_t c : channels) {
-        const ChannelTraits& of = traits(channels_[c].kind);
-        out.state = out.state || !evaluator_.is_of_coordinates(channels_[c]);
-        out.squared = out.squared || of.squared;
-        out.contact = out.contact || (system.has_cam() && (of.needs_contact || (touching && of.needs_force)));
-    }
-    return out;
-}
-
-void StepSamples::place(double t, const Needs& needs) {
-    step_.segment->value(t, y_.data());
-    if (!needs.state) return;
-    evaluator_.set(t, y_.data());
-    if (needs.contact) place_contact(t);
-}
-
-// By the probe, which costs less than a search of the whole beam; the force of sustained contact needs the equations of
-// motion.
-void StepSamples::place_contact(double t) {
-    System& system = evaluator_.system();
-    const Phase& phase = system.phase();
-    if (phase.held) return;
-    ContactState c = probe_.evaluate(t, y_.data());
-    if (phase.touching) {
-        c.force = system.normal_law().at(c.disc.radius).force(-c.gap, -c.gap_rate, phase.approach);
-        c.friction = system.friction().force(phase.friction, c.force, c.slip, system.bristle(y_.data()));
-    }
-    evaluator_.set_contact(c);
-}
-
-double StepSamples::read(Channel channel, double t) {
-    if (evaluator_.is_of_coordinates(channel)) return evaluator_.value_of_coordinates(channel, t, y_.data());
-    const System& system = evaluator_.system();
-    const bool force = channel.kind == ChannelKind::contact_force || channel.kind == ChannelKind::friction_force;
-    if (force && system.has_cam() && !system.phase().touching) return 0;
+double StepSamples::value(Channel channel, double t) {
+    place(t);
     return evaluator_.value(channel);
 }
 
-double StepSamples::value(Channel channel, double t) {
-    channels_.assign(1, channel);
-    const std::size_t first = 0;
-    place(t, needs_of({&first, 1}));
-    return read(channel, t);
+void StepSamples::place(double t) {
+    step_.segment->value(t, y_.data());
+    evaluator_.set(t, y_.data());
 }
 
 }  // namespace beamcam::sim

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "sim/base/lanes.hpp"
-#include "sim/integrate/gap_probe.hpp"
 #include "sim/observe/channel_evaluator.hpp"
 #include "sim/observe/observer.hpp"
 
@@ -45,14 +44,9 @@ class StepSamples {
     void evaluate_nodes(const Instants& part, const NeedsMore& needs_more, const See& see);
     bool ends_suffice(const Instants& part, std::size_t channel, const NeedsMore& needs_more, const See& see);
     bool is_gap_in_flight(std::size_t channel) const;
-    struct Needs;
-    Needs needs_of(std::span<const std::size_t> channels) const;
-    void place(double t, const Needs& needs);
-    void place_contact(double t);
-    double read(Channel channel, double t);
+    void place(double t);
 
     ChannelEvaluator& evaluator_;
-    GapProbe probe_;
     Eigen::MatrixXd to_modes_;  // the natural modes by the coordinates
     // Of each mode [1/s]: frequency without damping; the same, but 0 beyond critical damping; rate of the fastest
     // decay.
