@@ -30,9 +30,8 @@ class Lever {
     // Moment about the pivot that presses the lever at rest onto the cam [N m]: of gravity, the hub's spring and the
     // torque at the start.
     double pressing_moment(double theta) const;
-    double farthest_foot() const;  // largest x_c of a turn [m]; not a number where no lever reaches the cam
-    double inertia() const { return inertia_; }  // about the pivot [kg m²]
-    double side() const { return side_; }        // 1 where the lever lies counter-clockwise from the cam, else −1
+    double farthest_foot() const;          // largest x_c of a turn [m]; not a number where no lever reaches the cam
+    double side() const { return side_; }  // 1 where the lever lies counter-clockwise from the cam, else −1
 
     // The least speed of the cam at which the lever leaves it, and where. Speed 0: the lever is not pressed there.
     // Nothing if it stays on the cam at any speed, or if the drive's torque or angle depends on time.

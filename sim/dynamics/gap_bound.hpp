@@ -21,9 +21,6 @@ class GapBound {
     double travel(const double* change) const;
     // True if the beam has only one foot for these coordinates q, wherever the cam is.
     bool nearly_straight(const double* q) const;
-    // For each mode (not of `exact`): the largest displacement per unit of its coordinate, and the wave number [1/m].
-    double shape_bound(std::size_t mode) const { return shape_bounds_[mode]; }
-    double wave_number(std::size_t mode) const { return wave_numbers_[mode]; }
 
     // Upper bound of the distance of any point from the straight beam at the frame's angle [m].
     double deflection(const double* xi, const double* spread) const;

@@ -78,20 +78,19 @@ std::optional<MotionBounds> ExponentialSegment::bounds() const {
         sum.add(*form_, i, {amplitude, speed, o.omega * o.omega * amplitude + force + 2 * o.gamma * speed});
     }
     const LegendreRange turning = legendre_range(theta_dot);
-    const double spread = turning.spread + (std::fabs(turning.mean) + turning.spread) * missed_turning(sum);
-    const double low = turning.mean - spread, high = turning.mean + spread;
-    b.theta_dot = std::max(std::fabs(low), std::fabs(high));
+    b.theta_dot = largest_turning(turning, sum);
     b.theta_ddot = form_->prescribed ? turning.slope / h : hub_acceleration(sum, b.theta_dot);
     bound_points(sum, b);
     return b;
 }
 
-// Largest relative distance of Θ̇ = p/(J + qᵀBq) from the polynomial through its nodal values, p being one: by all that
-// bending changes, or by rounding and the tolerance. Where bending may make the inertia zero, Θ̈ has no bound and this
-// is not used.
-double ExponentialSegment::missed_turning(const VibrationBounds& sum) const {
+// Bound of |Θ̇|, Θ̇ = p/(J + qᵀBq): the polynomial through its nodal values may miss it by all that bending changes, or
+// by rounding and the tolerance. No bound where bending may make the inertia zero.
+double ExponentialSegment::largest_turning(const LegendreRange& nodal, const VibrationBounds& sum) const {
     const double bent = form_->prescribed ? 0 : sum.inertia * sum.inertia, least = form_->J - bent;
-    return kMissedTurning + (least > 0 ? 2 * bent / least : 0);
+    if (!(least > 0)) return std::numeric_limits<double>::infinity();
+    const double missed = kMissedTurning + 2 * bent / least;
+    return std::fabs(nodal.mean) + (nodal.spread + (std::fabs(nodal.mean) + nodal.spread) * missed);
 }
 
 // Θ̈ = [ṗ − 2Θ̇qᵀBq̇]/(J + qᵀBq); no bound where bending may make the inertia zero.

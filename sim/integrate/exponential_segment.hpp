@@ -14,6 +14,7 @@
 
 namespace beamcam::sim {
 
+struct LegendreRange;
 struct VibrationBounds;
 
 class ExponentialSegment final : public Segment {
@@ -66,7 +67,7 @@ class ExponentialSegment final : public Segment {
     };
     Largest largest_of(std::size_t mode) const;
     double largest_rate(std::size_t mode, double amplitude, double force) const;
-    double missed_turning(const VibrationBounds& sum) const;
+    double largest_turning(const LegendreRange& nodal, const VibrationBounds& sum) const;
     double hub_acceleration(const VibrationBounds& sum, double fastest) const;
     void bound_points(const VibrationBounds& sum, MotionBounds& b) const;
     double torque_on_vibration(double s, const double* y) const;

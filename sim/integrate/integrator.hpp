@@ -17,7 +17,7 @@ inline constexpr double kShareOfBdf = 0.03;
 
 class System;
 
-// Bounds of magnitudes within a step that may span many periods of vibration.
+// Bounds of magnitudes within a step that may span many periods of vibration; infinite where there is none.
 struct MotionBounds {
     double theta_dot = 0, theta_ddot = 0;  // Θ̇ [rad/s], Θ̈ [rad/s²]
     double deflection_speed = 0;           // ∂v/∂t anywhere on the beam [m/s]

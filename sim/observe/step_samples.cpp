@@ -177,7 +177,7 @@ bool StepSamples::is_gap_in_flight(std::size_t channel) const {
 bool StepSamples::ends_suffice(const Instants& part, std::size_t channel, const NeedsMore& needs_more, const See& see) {
     const System& system = evaluator_.system();
     const auto bounds = step_.segment->bounds();
-    if (!is_gap_in_flight(channel) || !bounds || !system.has_cam()) return false;
+    if (!is_gap_in_flight(channel) || !bounds || !std::isfinite(bounds->theta_dot) || !system.has_cam()) return false;
     Nodes& of = nodes_[channel];
     for (const std::size_t k : {std::size_t{0}, kCount - 1}) {
         of.value[k] = value(channels_[channel], part[k]);

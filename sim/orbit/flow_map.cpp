@@ -55,7 +55,6 @@ FlowMap flow_map(const Problem& problem, const InitialState& start, double durat
     map.end.y = run.state().y;
     map.end.phase = run.state().phase;
     map.touches = tangents.touches();
-    map.inertia_share = tangents.inertia_share();
     map.holds = tangents.holds();
     map.lifts = tangents.lifts();
     map.units = tangents.units().head(2 * (tangents.units().size() / 2 - 1));

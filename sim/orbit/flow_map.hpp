@@ -17,8 +17,7 @@ struct FlowMap {
     // The derivative in `units` is the product of these factors, which are in the order of time. Each ends at a touch,
     // before any sustained contact, and is well conditioned where the derivative is not.
     std::vector<Eigen::MatrixXd> factors;
-    double inertia_share = 1;  // at the end (S73)
-    Eigen::VectorXd units;     // of ξ and ξ̇ (Tangents::units)
+    Eigen::VectorXd units;  // of ξ and ξ̇ (Tangents::units)
     std::vector<TangentTouch> touches;
     long holds = 0, lifts = 0;  // impacts followed by sustained contact; ends of sustained contact
 };

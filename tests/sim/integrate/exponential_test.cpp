@@ -444,6 +444,7 @@ TEST(ExponentialFlight, KeepsTheBoundsThatItPromises) {
             ASSERT_TRUE(b);
             ++steps;
             if (std::isfinite(b->theta_ddot)) ++finite;
+            EXPECT_EQ(std::isfinite(b->theta_dot), std::isfinite(b->theta_ddot)) << repeat;
             const double h = segment.t1 - segment.t0, dt = h / kSamples;
             if (system.highest_frequency() * h > 14) ++fast;
             const double speed = b->theta_dot * reach + b->deflection_speed, rounding = 1e-12 * (speed + 1);
