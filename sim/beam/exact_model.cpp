@@ -18,7 +18,7 @@ class ExactModel final : public QuadratureModel {
         eta_.resize(nodes, modes_);
         bending_ = Eigen::MatrixXd::Zero(modes_, modes_);
         for (Eigen::Index k = 0; k < nodes; ++k) {
-            const ShapesAt shapes(*this, rule_.x[k]);
+            const AngleShapes shapes(*this, rule_.x[k]);
             for (int i = 0; i < modes_; ++i) {
                 eta_(k, i) = shapes.value[i];
                 for (int j = 0; j < modes_; ++j)
@@ -34,7 +34,7 @@ class ExactModel final : public QuadratureModel {
     std::unique_ptr<Model> clone() const override { return std::make_unique<ExactModel>(*this); }
 
     void point(double x, BeamPoint& p) const override {
-        const ShapesAt shapes(*this, x);
+        const AngleShapes shapes(*this, x);
         double psi = xi_[0], psi_rate = rate_[0], curvature = 0;
         for (int i = 0; i < modes_; ++i) {
             psi += shapes.value[i] * xi_[1 + i];
@@ -52,7 +52,7 @@ class ExactModel final : public QuadratureModel {
     }
 
     void jacobian(double x, double* jx, double* jy, double* jchi) const override {
-        const ShapesAt shapes(*this, x);
+        const AngleShapes shapes(*this, x);
         weigh(x);
         const Vec2 root = perp(unit(xi_[0]));
         jx[0] = radius_ * root.x - weights_.dot(sin_);
@@ -78,7 +78,7 @@ class ExactModel final : public QuadratureModel {
     }
 
     double bending_moment(double x) const override {
-        const ShapesAt shapes(*this, x);
+        const AngleShapes shapes(*this, x);
         double curvature = 0;
         for (int i = 0; i < modes_; ++i) curvature += shapes.slope[i] * xi_[1 + i];
         return stiffness_ * curvature;
@@ -93,8 +93,8 @@ class ExactModel final : public QuadratureModel {
     }
 
     // The shapes η_j and their slopes at x, j = 1…N.
-    struct ShapesAt {
-        ShapesAt(const ExactModel& of, double x) : slope(value + of.modes_) {
+    struct AngleShapes {
+        AngleShapes(const ExactModel& of, double x) : slope(value + of.modes_) {
             section_angle_shapes(x, of.length_, of.modes_, 1, value);
         }
         double value[2 * kMaxModes];

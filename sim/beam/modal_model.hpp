@@ -66,7 +66,7 @@ class ModalModel final : public Model {
     double inertia_ = 1;                // J + qᵀ(M − D)q
     double alpha_ = 0, alpha_dot_ = 0;  // of the hub relative to the frame (S13)
     long state_ = 0;                    // the number of the present state
-    mutable Eigen::VectorXd bq_, gq_;   // scratch
+    mutable Eigen::VectorXd bq_, gq_;   // Bq, and Gq or, of `paper`, Mq less the stiffening of (S15)
     mutable std::vector<Local> kept_;   // by rising x, with both ends
     mutable Local elsewhere_;           // at the last other x
 };

@@ -60,8 +60,8 @@ class Model {
     virtual bool assemble(double* f) = 0;
     // f ← M⁻¹ f with the inertia of the last `assemble`.
     virtual void solve(double* f) const = 0;
-    // With the prescribed angular acceleration `hub` of the hub (cantilever coordinates only): f ← (hub, q̈). Returns
-    // the necessary torque [N m].
+    // With the prescribed angular acceleration `hub` of the hub, not in hub-beam shapes: f ← (hub, q̈). Returns the
+    // torque that it takes besides the forces in f[0] [N m].
     virtual double solve_held(double* f, double hub) const = 0;
 
     // Prepares for many calls at these arc positions.

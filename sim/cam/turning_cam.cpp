@@ -8,9 +8,9 @@
 namespace beamcam::sim {
 namespace {
 
-constexpr int kMostClimbs = 30;        // Newton's method needs three to six
-constexpr double kLastClimb = 1e-8;    // [rad]: the next step of Newton's method, which squares it, is rounding
-constexpr double kLongestClimb = 0.3;  // [rad]
+constexpr int kMostRefinements = 30;        // Newton's method needs three to six
+constexpr double kLastRefinement = 1e-8;    // [rad]: the next step of Newton's method, which squares it, is rounding
+constexpr double kLongestRefinement = 0.3;  // [rad]
 constexpr int kNormalsOfSearch = 128;
 
 }  // namespace
@@ -50,7 +50,7 @@ OsculatingDisc TurningCam::nearest(double t, Vec2 point, Vec2 normal) const {
 // from the outline. The normal there is α, from the guess or from the best of equally spaced normals.
 double TurningCam::nearest_normal(Vec2 point, double alpha) const {
     const double guess = alpha;
-    if (climb(point, alpha)) return alpha;
+    if (refine_normal(point, alpha)) return alpha;
     double best = guess, farthest = dot(point, unit(guess)) - shape_->at(guess).h;
     for (int i = 0; i < kNormalsOfSearch; ++i) {
         const double a = kFullTurn * i / kNormalsOfSearch, beyond = dot(point, unit(a)) - shape_->at(a).h;
@@ -60,20 +60,20 @@ double TurningCam::nearest_normal(Vec2 point, double alpha) const {
         }
     }
     alpha = best;
-    return climb(point, alpha) ? alpha : best;
+    return refine_normal(point, alpha) ? alpha : best;
 }
 
 // Newton's method for the largest P·n − h, whose second derivative is −(P·n − h + ρ). False: it does not lead to a
 // tangent that separates the point from the cam.
-bool TurningCam::climb(Vec2 point, double& alpha) const {
-    for (int i = 0; i < kMostClimbs; ++i) {
+bool TurningCam::refine_normal(Vec2 point, double& alpha) const {
+    for (int i = 0; i < kMostRefinements; ++i) {
         const CamPoint at = shape_->at(alpha);
         const Vec2 n = unit(alpha);
         const double curvature = dot(point, n) - at.h + at.radius;
         if (!(curvature > 0)) return false;
         const double step = (dot(point, perp(n)) - at.slope) / curvature;
-        alpha += std::clamp(step, -kLongestClimb, kLongestClimb);
-        if (std::fabs(step) < kLastClimb) return true;
+        alpha += std::clamp(step, -kLongestRefinement, kLongestRefinement);
+        if (std::fabs(step) < kLastRefinement) return true;
     }
     return false;
 }

@@ -36,7 +36,7 @@ class TurningCam {
 
   private:
     double nearest_normal(Vec2 point, double alpha) const;
-    bool climb(Vec2 point, double& alpha) const;
+    bool refine_normal(Vec2 point, double& alpha) const;
 
     std::shared_ptr<const CamShape> shape_;
     Vec2 axis_;

@@ -16,7 +16,7 @@ namespace {
 // than the second number is a chain: its load is 5·10³.
 constexpr double kLoadStep = 5, kMostLoadSteps = 1000;
 constexpr double kRestingLoadStep = 0.5;  // the same on the cam, which a beam bent in one step would leave
-constexpr double kShallowest = 1e-6;      // of the length: kBalanced of it is the rounding of a gap
+constexpr double kLeastDepth = 1e-6;      // of the length: kBalanced of it is the rounding of a gap
 // [rad] of the cam: step of finite differences of fourth order, at which truncation and rounding are equal.
 constexpr double kFollowingDifference = 5e-3;
 
@@ -143,7 +143,7 @@ bool equilibrium_on_cam(System& system, double t, FollowingState& s) {
     scale << scales(problem, n), force_size(system);
     const double depth = rigid_contact ? problem.beam.length : system.normal_law().penetration(scale[n], 0, approach);
     size << (moves ? acceleration_sizes(system, n) : force_sizes(system, n)),
-        std::max(depth, kShallowest * problem.beam.length);
+        std::max(depth, kLeastDepth * problem.beam.length);
     x << s.xi, 0.5 * scale[n];
     const auto residual = [&](const Eigen::VectorXd& at, Eigen::VectorXd& r) {
         std::copy_n(at.data(), n, y.begin());

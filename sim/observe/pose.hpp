@@ -29,7 +29,7 @@ struct Pose {
     Vec2 cam_centre;                 // C (axis) [m]; meaningless without a cam
     Vec2 disc_centre;                // B of the disc that osculates the cam at the nearest point [m]
     double disc_radius = 0;          // ρ there [m]
-    double cam_angle = 0;            // ψ, unwrapped [rad]; the mark is the ray C→B
+    double cam_angle = 0;            // ψ, unwrapped [rad]; the mark lies in this direction from C
     std::optional<Nearest> nearest;  // absent without a cam
 };
 

@@ -16,7 +16,7 @@ namespace beamcam::sim {
 struct TouchState {
     double theta = 0, theta_dot = 0;  // [rad], [rad/s]
     double contact_s = 0;             // [m]
-    std::vector<double> q;            // the scene's coordinates [m]
+    std::vector<double> q;            // the scene's coordinates [m]; of `exact` [rad]
 };
 
 // One touch, from approach to release. Speeds: v_n < 0 approaches; v_t is beam minus cam material.

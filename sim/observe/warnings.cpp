@@ -12,7 +12,7 @@ namespace beamcam::sim {
 namespace {
 
 constexpr double kMissedPeak = 0.95;          // of the largest force: rows that reach less miss it
-constexpr double kLedgerTolerances = 10;      // times rtol: the accuracy of `auto`; a larger error is a warning
+constexpr double kBalanceTolerances = 10;     // times rtol: the accuracy of `auto`; a larger error is a warning
 constexpr double kEnergyRounding = 1e-12;     // of the energy scale
 constexpr double kReportedGap = 1e-10;        // of the length, left at an event: 1000 times rounding
 constexpr double kForeshorteningSlope = 0.3;  // [rad] beyond which the modal models' u ≈ −½∫v′² misses 2 %
@@ -26,11 +26,11 @@ void warn_of_chatter(const Problem& problem, const RunStatistics& statistics, st
                     counted(statistics.chatters, "time"), speed, kSummedShare));
 }
 
-void warn_of_ledger(const Problem& problem, const Result& result, std::vector<std::string>& out) {
-    const double limit = kLedgerTolerances * problem.solver.rtol * result.energy_scale;
+void warn_of_balance(const Problem& problem, const Result& result, std::vector<std::string>& out) {
+    const double limit = kBalanceTolerances * problem.solver.rtol * result.energy_scale;
     if (problem.beam.model == ModelKind::paper || !(result.energy_residual_max > limit)) return;
     out.push_back(
-        fmt::format("the energy ledger closes only to {:.2g} J of {:.3g} J, more than 10 times rtol = {:g}: "
+        fmt::format("the energy balance closes only to {:.2g} J of {:.3g} J, more than 10 times rtol = {:g}: "
                     "tighten solver.rtol{}",
                     result.energy_residual_max, result.energy_scale, problem.solver.rtol,
                     problem.solver.method == Method::automatic ? "" : ", or use \"method\": \"auto\""));
@@ -141,7 +141,7 @@ std::vector<std::string> warnings(const Problem& problem, const Result& result, 
     std::vector<std::string> out;
     warn_of_chatter(problem, statistics, out);
     warn_of_gains(problem, result, out);
-    warn_of_ledger(problem, result, out);
+    warn_of_balance(problem, result, out);
     warn_of_slopes(problem, largest_elastic, out);
     warn_of_floor(problem, result, statistics, out);
     warn_of_fallbacks(problem, statistics, out);

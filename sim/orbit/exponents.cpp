@@ -13,8 +13,7 @@
 namespace beamcam::sim {
 namespace {
 
-// Standard errors by which an exponent differs from zero: three times its error.
-constexpr double kSureErrors = 3;
+constexpr double kSureErrors = 3;   // of an exponent that surely differs from zero, over its standard error
 constexpr double kMaxDecay = 5;     // logarithm of the decay of a damped mode between two orthonormalizations
 constexpr double kHalvesApart = 4;  // standard errors between the halves of an average
 // Blocks that do not match the period of a periodic motion may differ by this share of the whole.

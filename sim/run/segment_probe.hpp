@@ -27,7 +27,7 @@ class SegmentProbe {
     }
     const double* state() const { return y_.data(); }
     ContactState contact(const Segment& segment, double t) { return system.contact(t, state(segment, t)); }
-    // Only foot, gap and gap rate, in flight.
+    // The same to rounding at less cost, but for `at_end` and `side`.
     ContactState gap(const Segment& segment, double t) { return gap_.evaluate(t, state(segment, t)); }
 
     int pieces(const Segment& segment) const;

@@ -342,7 +342,7 @@ inline StressResult run_case(const StressCase& one) {
         const double unit = one.problem.solver.rtol * r.energy_scale;
         out.closure = unit > 0 ? r.energy_residual_max / unit : 0;
         const bool reported = std::ranges::any_of(
-            r.warnings, [](const std::string& w) { return w.find("energy ledger") != std::string::npos; });
+            r.warnings, [](const std::string& w) { return w.find("energy balance") != std::string::npos; });
         out.outcome = reported || one.problem.beam.model == ModelKind::paper ? Outcome::open : Outcome::closed;
         if (!r.warnings.empty()) out.message = r.warnings.front();
     } catch (const SolverError& error) {

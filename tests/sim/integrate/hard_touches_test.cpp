@@ -84,7 +84,7 @@ TEST(HardTouch, ALedgerThatDoesNotCloseIsTold) {
     const Result result = run(problem, 1);
     ASSERT_GT(result.energy_residual_max, 10 * problem.solver.rtol * result.energy_scale);
     ASSERT_FALSE(result.warnings.empty());
-    EXPECT_NE(result.warnings[0].find("energy ledger"), std::string::npos);
+    EXPECT_NE(result.warnings[0].find("energy balance"), std::string::npos);
 }
 
 }  // namespace
