@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "sim/beam/modal_model.hpp"
 #include "sim/beam/quadrature_model.hpp"
@@ -18,16 +17,16 @@ class SecondOrderModel final : public QuadratureModel {
         const Eigen::Index nodes = rule_.x.size();
         phi_.resize(nodes, modes_);
         phi1_.resize(nodes, modes_);
-        bending_ = Eigen::MatrixXd::Zero(modes_, modes_);
-        Eigen::VectorXd y(modes_), y1(modes_), y2(modes_);
+        bending_ = line_.matrices().K.asDiagonal();
+        Eigen::VectorXd y(modes_), y1(modes_);
         for (Eigen::Index k = 0; k < nodes; ++k) {
-            line_.shapes().evaluate(rule_.x[k], y.data(), y1.data(), y2.data());
+            line_.shapes().evaluate(rule_.x[k], y.data(), y1.data(), nullptr);
             phi_.row(k) = y.transpose();
             phi1_.row(k) = y1.transpose();
-            bending_.noalias() += stiffness_ * rule_.w[k] * y2 * y2.transpose();
         }
+        line_.keep(rule_.x);
         std::copy_n(line_.hub_row(), size_, hub_row_);
-        for (Eigen::VectorXd* v : {&v_, &v1_, &dv_, &dv1_, &u_, &du_}) v->resize(nodes);
+        for (Eigen::VectorXd* v : {&v_, &dv_, &u_, &du_}) v->resize(nodes);
         shortening_.resize(nodes * modes_, modes_);
         for (int i = 0; i < modes_; ++i)
             shortening_.middleRows(i * nodes, nodes).noalias() =
@@ -52,76 +51,53 @@ class SecondOrderModel final : public QuadratureModel {
         return problem;
     }
 
-    void state_changed() override {
-        line_.set(xi_, rate_);
-        sin_ = std::sin(xi_[0]);
-        cos_ = std::cos(xi_[0]);
-        const Eigen::Map<const Eigen::VectorXd> q(xi_ + 1, modes_), dq(rate_ + 1, modes_);
-        v_.noalias() = phi_ * q;
-        v1_.noalias() = phi1_ * q;
-        dv_.noalias() = phi_ * dq;
-        dv1_.noalias() = phi1_ * dq;
-        shortening_known_ = false;
-        alpha_ = alpha_dot_ = 0;
-        for (int i = 1; i < size_; ++i) {
-            alpha_ += hub_row_[i] * xi_[i];
-            alpha_dot_ += hub_row_[i] * rate_[i];
-        }
-    }
-
-    // ∂u/∂q, u and u̇ at the nodes.
-    void shorten() const {
-        if (std::exchange(shortening_known_, true)) return;
-        const Eigen::Map<const Eigen::VectorXd> q(xi_ + 1, modes_), dq(rate_ + 1, modes_);
-        shortened_.reshaped().noalias() = shortening_ * q;
-        u_.noalias() = 0.5 * (shortened_ * q);
-        du_.noalias() = shortened_ * dq;
-        u_.array() -= 0.5 * radius_ * alpha_ * alpha_;
-        du_.array() -= radius_ * alpha_ * alpha_dot_;
-    }
+    void state_changed() override { line_.set(xi_, rate_); }
 
     void columns() override {
-        shorten();
-        const double Theta_dot = rate_[0];
+        const Eigen::Map<const Eigen::VectorXd> q(xi_ + 1, modes_), dq(rate_ + 1, modes_), h(hub_row_ + 1, modes_);
+        const double Theta_dot = rate_[0], alpha = h.dot(q), alpha_dot = h.dot(dq);
         const Eigen::Index nodes = rule_.x.size();
+        v_.noalias() = phi_ * q;
+        dv_.noalias() = phi_ * dq;
+        shortened_.reshaped().noalias() = shortening_ * q;  // ∂u/∂q but for the hub
+        u_.noalias() = 0.5 * (shortened_ * q);
+        du_.noalias() = shortened_ * dq;
+        u_.array() -= 0.5 * radius_ * alpha * alpha;
+        du_.array() -= radius_ * alpha * alpha_dot;
         auto x = columns_.topRows(nodes);
         scratch_ = rule_.x + u_;
         scratch_.array() += radius_;
         x.col(0) = -root_weight_.cwiseProduct(v_);
         columns_.col(0).tail(nodes) = root_weight_.cwiseProduct(scratch_);
         for (int i = 0; i < modes_; ++i)
-            x.col(1 + i) = root_weight_.array() * (shortened_.col(i).array() - radius_ * alpha_ * hub_row_[1 + i]);
+            x.col(1 + i) = root_weight_.array() * (shortened_.col(i).array() - radius_ * alpha * h[i]);
         // r̈ at ξ̈ = 0, in the frame: −Θ̇²r + 2Θ̇ k×(u̇, v̇) + (ü, 0), ü = −∫v̇′² − aα̇²      (S17)
         auto bias_x = bias_.head(nodes), bias_y = bias_.tail(nodes);
         bias_x = -Theta_dot * Theta_dot * scratch_ - 2 * Theta_dot * dv_;
-        scratch_ = dv1_.cwiseAbs2();
+        scratch_.noalias() = phi1_ * dq;
+        scratch_ = scratch_.cwiseAbs2();
         bias_x.noalias() -= primitive_ * scratch_;
-        bias_x.array() += gravity_ * sin_ - radius_ * alpha_dot_ * alpha_dot_;
+        bias_x.array() += gravity_ * std::sin(xi_[0]) - radius_ * alpha_dot * alpha_dot;
         bias_y = -Theta_dot * Theta_dot * v_ + 2 * Theta_dot * du_;
-        bias_y.array() += gravity_ * cos_;
+        bias_y.array() += gravity_ * std::cos(xi_[0]);
         bias_x.array() *= root_weight_.array();
         bias_y.array() *= root_weight_.array();
     }
 
     void node_kinematics() const override {
-        shorten();
-        const double Theta_dot = rate_[0];
+        BeamPoint p;
         for (Eigen::Index k = 0; k < rule_.x.size(); ++k) {
-            const double rx = radius_ + rule_.x[k] + u_[k];
-            y_[k] = rx * sin_ + v_[k] * cos_;
-            vx_[k] = du_[k] - v_[k] * Theta_dot;
-            vy_[k] = dv_[k] + rx * Theta_dot;
+            line_.point(rule_.x[k], p);
+            y_[k] = p.r.y;
+            vx_[k] = p.v.x;
+            vy_[k] = p.v.y;
         }
     }
 
     ModalModel line_;  // the shapes, and the centre line in the set state
     Eigen::MatrixXd phi_, phi1_;
-    Eigen::MatrixXd shortening_;  // −∫₀ˣφ_i′φ_j′: rows by i, then node
-    mutable Eigen::MatrixXd shortened_;
-    mutable bool shortening_known_ = false;  // of the set state
-    Eigen::VectorXd v_, v1_, dv_, dv1_;
-    mutable Eigen::VectorXd u_, du_;
-    double sin_ = 0, cos_ = 1, alpha_ = 0, alpha_dot_ = 0;
+    Eigen::MatrixXd shortening_, shortened_;  // −∫₀ˣφ_i′φ_j′: rows by i, then node; its product with q
+    Eigen::VectorXd v_, dv_, u_, du_;
 };
 
 }  // namespace
