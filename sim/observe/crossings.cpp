@@ -17,7 +17,7 @@ std::vector<Vec2> points_of(StepSamples& step, const SegmentInterval& s, Channel
     const auto may_pass = [&](std::size_t, double low, double high, double stray) {
         return low - stray < level && level < high + stray;
     };
-    const StepSamples::Series series = step.sample(s, {&channel, 1}, may_pass).front();
+    const StepSamples::Series& series = step.sample(s, {&channel, 1}, may_pass).front();
     std::vector<Vec2> points;
     double largest = std::fabs(level);
     for (std::size_t k = 0; k < series.t.size(); ++k) {

@@ -59,7 +59,7 @@ void raise_extrema(StepSamples& step, const SegmentInterval& s, std::span<const 
         if (value > e.max) e.max = value, e.t_max = t;
         if (value < e.min) e.min = value, e.t_min = t;
     };
-    const auto& all = step.sample(s, channels, needs_more, see);
+    const auto all = step.sample(s, channels, needs_more, see);
     for (std::size_t c = 0; c < channels.size(); ++c) {
         Extremum& e = extrema[c];
         Best high{e.t_max, e.max}, low{e.t_min, -e.min};
@@ -78,7 +78,7 @@ void raise_peaks(StepSamples& step, const SegmentInterval& s, Impact& impact) {
     constexpr std::array kChannelsOfContact{Channel{ChannelKind::contact_force}, Channel{ChannelKind::gap}};
     std::array peaks{Best{impact.t_peak.value_or(s.from), impact.force_peak.value_or(0)},
                      Best{s.from, impact.penetration_peak}};
-    const auto& all = step.sample(s, kChannelsOfContact, [&](std::size_t c, double low, double high, double stray) {
+    const auto all = step.sample(s, kChannelsOfContact, [&](std::size_t c, double low, double high, double stray) {
         return stray > kNegligibleRise * peaks[c].value && (c == 0 ? high : -low) + stray > peaks[c].value;
     });
     for (std::size_t c = 0; c < all.size(); ++c) {

@@ -95,19 +95,19 @@ const TouchSamples* StepSamples::touch_at(const Instants& part) const {
     return touch && touch->t[0] == part.front() && touch->t[kCount - 1] == part.back() ? touch : nullptr;
 }
 
-const std::vector<StepSamples::Series>& StepSamples::sample(const SegmentInterval& s, std::span<const Channel> channels,
-                                                            const NeedsMore& needs_more, const See& see) {
+std::span<const StepSamples::Series> StepSamples::sample(const SegmentInterval& s, std::span<const Channel> channels,
+                                                         const NeedsMore& needs_more, const See& see) {
     step_ = s;
     channels_.assign(channels.begin(), channels.end());
-    series_.resize(channels.size());
     nodes_.resize(channels.size());
+    series_.resize(std::max(series_.size(), channels.size()));  // they keep their memory
     for (Series& series : series_) {
         series.t.clear();
         series.value.clear();
     }
     find_parts();
     for (const Instants& part : parts_) sample_part(part, needs_more, see);
-    return series_;
+    return {series_.data(), channels.size()};
 }
 
 void StepSamples::sample_part(const Instants& part, const NeedsMore& needs_more, const See& see) {

@@ -28,8 +28,8 @@ class StepSamples {
     explicit StepSamples(ChannelEvaluator& evaluator);  // must outlive it
 
     // One series for each channel, valid until the next call. The result does not depend on earlier steps.
-    const std::vector<Series>& sample(const SegmentInterval& s, std::span<const Channel> channels,
-                                      const NeedsMore& needs_more, const See& see = {});
+    std::span<const Series> sample(const SegmentInterval& s, std::span<const Channel> channels,
+                                   const NeedsMore& needs_more, const See& see = {});
     double value(Channel channel, double t);  // in the step that was sampled last
 
   private:
