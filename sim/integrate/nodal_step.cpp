@@ -43,7 +43,7 @@ void NodalStep::begin(double t) {
     theta_dot0 = y[1 + n];
     s.p0 = form->prescribed ? 0 : theta_dot0 * s.inertia(y + 1);
     set_scales(y, y);
-    if (!form->damped) return;
+    if (!form->damped || system.phase().touching) return;
     system.rhs(t, s.end.data(), start_rate_.data());
     form->to_modes(start_rate_.data());
     inertia_rate_ = 0;
@@ -259,7 +259,7 @@ double NodalStep::drive_error(double h) const {
 }
 
 // A vibration that decays before the first node changes the forcing at the start only. What the polynomial through the
-// nodal values misses there, beyond its last coefficients, lasts up to the first node.
+// nodal values misses there, beyond its last coefficients, lasts up to the first node. Steps in contact begin short.
 double NodalStep::start_error(double h) const {
     const Collocation& gauss = Collocation::get();
     const auto missed = [&](double start, const Lanes& nodal) {
@@ -290,7 +290,7 @@ double NodalStep::forcing_error(double h, const ContactLoad* load) {
         const double e = interpolation_error(f) * std::min(h, 1 / form->oscillators[i].omega);
         errors += e * e;
     }
-    const double modal = std::max(std::sqrt(errors) / scale_modes, form->damped ? start_error(h) : 0);
+    const double modal = std::max(std::sqrt(errors) / scale_modes, form->damped && !load ? start_error(h) : 0);
     if (form->prescribed) return std::max(modal, drive_error(h));
     const double torque_error = interpolation_error(load ? s.p_dot - load->torque() : s.p_dot) * h / form->J;
     // The contact turns Θ̇ by a polynomial of the degree of its force, whose error is that of the force.

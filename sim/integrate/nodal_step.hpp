@@ -93,7 +93,7 @@ struct NodalStep {
     Lanes acceleration_{}, drive_torque_{};
     std::vector<Lanes> base_q_, base_v_, bq_, gq_;
     std::vector<double> start_;       // of the step, in modes
-    std::vector<double> start_rate_;  // its derivative, where modes are damped
+    std::vector<double> start_rate_;  // its derivative, of damped modes in flight
     double inertia_rate_ = 0;         // 2 qᵀBq̇ there
     // These are null and empty where the modes are the coordinates.
     std::unique_ptr<InertiaForces> inertia_;
