@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/cam/motion_law.hpp"
 #include "sim/contact/chatter.hpp"
 #include "sim/dynamics/failure.hpp"
 #include "sim/orbit/tangent_step.hpp"
@@ -43,8 +44,6 @@ void Saltation::pass(double t, const double* before, const Phase& was, const dou
         release(tangents);
     else if (was.friction != is.friction)
         change_friction(at, tangents);
-    else if (was.held && is.held && n_ > 1)
-        require_curvature(at);
     if (!is.touching && (jumps || was.touching)) left_ = t;
 }
 
@@ -62,17 +61,22 @@ Eigen::VectorXd Saltation::flow_after(const Instant& at) {
 }
 
 // Where ρ jumps, so does the force of sustained contact, and the tangents with it by what neighbours arrive later.
-void Saltation::require_curvature(const Instant& at) {
+void Saltation::require_curvature(double t, const double* y, double to, const double* end, const Phase& phase) {
     constexpr double kSide = 1e-6, kJump = 1e-4;  // [rad]; of ρ, far more than it changes in between
-    probe_.set_phase(at.is);
-    near_ = probe_.contact(at.t, at.after);
-    const double alpha = probe_.cam().alpha(at.t, near_.normal);
-    const CamShape& cam = probe_.cam().shape();
-    if (std::fabs(cam.at(alpha + kSide).radius - cam.at(alpha - kSide).radius) > kJump * near_.disc.radius)
-        throw RunStopped(
-            Stop::refused,
-            "tangents are not known where sustained contact passes a jump of the cam's radius of curvature: use "
-            "compliant contact, or a profile whose curvature does not jump");
+    const TurningCam& cam = probe_.cam();
+    if (!phase.held || n_ == 1 || cam.shape().kinks().empty()) return;
+    probe_.set_phase(phase);
+    const double from = cam.alpha(t, probe_.contact(t, y).normal),
+                 turned = std::remainder(cam.alpha(to, probe_.contact(to, end).normal) - from, kFullTurn);
+    for (const double kink : cam.shape().kinks()) {
+        const double share = std::remainder(kink - from, kFullTurn) / turned, radius = cam.shape().at(kink).radius;
+        const double jump = cam.shape().at(kink + kSide).radius - cam.shape().at(kink - kSide).radius;
+        if (share >= 0 && share <= 1 && std::fabs(jump) > kJump * radius)
+            throw RunStopped(
+                Stop::refused,
+                "tangents are not known where sustained contact passes a jump of the cam's radius of curvature: use "
+                "compliant contact, or a profile whose curvature does not jump");
+    }
 }
 
 // At the contact near_, in the state before the touch. Beyond an end of the beam the foot is on its straight extension.

@@ -29,6 +29,8 @@ class Saltation {
               Eigen::MatrixXd& tangents);
     // Start in sustained contact: projects the tangents onto differences that remain on the cam.
     void start_on_cam(double t, const double* y, const Phase& is, Eigen::MatrixXd& tangents);
+    // Throws RunStopped if sustained contact between these states passes a jump of the cam's radius of curvature.
+    void require_curvature(double t, const double* y, double to, const double* end, const Phase& phase);
 
     const std::vector<TangentTouch>& touches() const { return touches_; }
     long holds() const { return holds_; }  // impacts followed by sustained contact
@@ -48,7 +50,6 @@ class Saltation {
     JetState jets_before(const Instant& at, const Eigen::MatrixXd& tangents, Eigen::Index first);
     Eigen::VectorXd flow_after(const Instant& at);
     void record_touch(const Instant& at);
-    void require_curvature(const Instant& at);
 
     System& probe_;
     ModalJets& jets_;

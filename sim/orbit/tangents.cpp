@@ -54,6 +54,9 @@ void Tangents::resume(double t, const std::vector<double>& y, const Phase& phase
 }
 
 void Tangents::step(const SegmentInterval& s) {
+    std::vector<double> end(y_.size());
+    s.segment->value(s.to, end.data());
+    saltation_.require_curvature(t_, y_.data(), s.to, end.data(), phase_);
     while (t_ < s.to) {
         const double to = std::min(s.to, next_pause_);
         if (to > t_) tangent_step_.advance(*s.segment, t_, to, tangents_);
@@ -61,7 +64,7 @@ void Tangents::step(const SegmentInterval& s) {
         s.segment->value(t_, y_.data());
         if (pause_ && t_ >= next_pause_) next_pause_ = pause_(t_);
     }
-    s.segment->value(s.to, y_.data());
+    y_ = std::move(end);
 }
 
 double Tangents::inertia_share() const { return jets_.inertia_share(y_.data() + 1); }
