@@ -4,9 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "render/mechanism/cam_outline.hpp"
-#include "sim/cam/cam_shape.hpp"
-
 namespace beamcam::render {
 namespace {
 
@@ -31,25 +28,18 @@ ImpactRings::ImpactRings(const MechanismView& at) {
         if (first == times.end() || (first == times.begin() && *first > impact.t_start)) continue;
         const int frame = static_cast<int>(first - times.begin()), before = std::exchange(last, frame);
         if (before >= 0 && age(at, before, frame) < 1) continue;
-        const sim::Pose pose = at.context.pose(at.member, frame);
-        const DrawnBeam beam = at.drawn(at.member, pose);
-        if (!beam.contact) continue;
-        const Vec2 n = beam.contact->normal;
-        rings_.push_back({frame, std::atan2(n.y, n.x) - pose.cam_angle});
+        if (const DrawnBeam beam = at.beam_of(at.member, frame); beam.contact)
+            rings_.push_back({frame, beam.contact->on_disc});
     }
 }
 
-// Rings move with the disc.
 void ImpactRings::draw(const MechanismScene& s) const {
-    if (!s.at.problem().cam) return;
     const auto next = std::ranges::upper_bound(rings_, s.frame, {}, &Ring::frame);
     if (next == rings_.begin()) return;
     const Ring& r = *std::prev(next);
     const double share = age(s.at, r.frame, s.frame);
     if (share >= 1) return;
-    const Vec2 at =
-        s.px(on_cam(s.pose, sim::cam_shape(s.at.problem())->at(r.material_angle).position(r.material_angle)));
-    s.canvas.circle(at, (7 + 20 * std::sqrt(share)) * s.at.marks);
+    s.canvas.circle(s.px(r.place), (7 + 20 * std::sqrt(share)) * s.at.marks);
     s.canvas.stroke(
         {s.at.palette.contact.faded((1 - share) * (1 - share)), (3.2 - 2 * share) * std::max(s.at.marks, 0.45)});
 }

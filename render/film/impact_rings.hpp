@@ -14,8 +14,8 @@ class ImpactRings {
 
   private:
     struct Ring {
-        int frame = 0;              // the first frame that shows it
-        double material_angle = 0;  // on the disc, from its mark [rad]
+        int frame = 0;  // the first frame that shows it
+        Vec2 place;     // of the contact then [m]
     };
     std::vector<Ring> rings_;
 };

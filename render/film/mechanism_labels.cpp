@@ -67,30 +67,23 @@ std::optional<double> arc_radius(const MechanismView& home) {
     return radius >= least ? std::optional(radius) : std::nullopt;
 }
 
-// The direction, near θ, of the beam's drawn line at this distance from the axis [m], or of its tip.
-static double line_angle(const MechanismScene& s, double distance) {
-    const std::vector<Vec2>& line = s.beam.line;
-    const auto beyond = std::ranges::find_if(line, [&](Vec2 p) { return norm(p) >= distance; });
-    const Vec2 p = beyond == line.end() ? line.back() : *beyond;
-    return drawn_angle(s.pose) + std::remainder(std::atan2(p.y, p.x) - s.pose.theta, 2 * pi);
-}
-
-// The arc ends at the beam. The letter is on the bisector, or as far from the beam as it needs. With the cam on the
-// beam's other side, the arc has the radius at which the letter has room between beam and horizontal.
+// The arc ends at the line at θ through the hub, behind the beam. The letter is on the bisector, or as far from the
+// beam as it needs. With the cam on the beam's other side, the arc has the radius at which the letter has room between
+// beam and horizontal.
 void draw_angle(const MechanismScene& s) {
     if (!s.at.labelled() || !s.at.arc_radius) return;
-    double angle = drawn_angle(s.pose), radius = *s.at.arc_radius * s.at.zoom();
+    const double angle = drawn_angle(s.pose);
+    double radius = *s.at.arc_radius * s.at.zoom();
     const double way = angle < 0 ? -1 : 1, size = letter_size(s.at);
     const double edge = (angle > 0 ? -s.beam.low : s.beam.high) * s.at.look.camera.scale;  // of the beam below its line
     if (way * s.beam.side < 0)
         radius = std::max(radius, std::min(longest_arc(s.at), (edge + 1.4 * size) / std::abs(angle) - 0.8 * size));
-    angle = way * std::max(0.0, way * line_angle(s, radius / s.at.look.camera.scale));
     const double visible = std::abs(angle) - std::asin(std::clamp(edge / radius, 0.0, 1.0));
     if (visible * radius < 3 * s.at.unit) return;
     const Vec2 o = s.at.px({0, 0});
     const Pen pen{s.at.palette.muted, 1.6 * s.at.unit, {}, Cap::butt};
     s.canvas.clip(s.at.box, [&] {
-        s.arc(o, radius, 0, way * (s.view ? visible : std::abs(angle)));
+        s.arc(o, radius, 0, angle);
         s.canvas.stroke(pen);
     });
     const double outside = radius + 0.8 * size;

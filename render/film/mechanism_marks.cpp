@@ -8,52 +8,51 @@
 
 namespace beamcam::render {
 
-// The base line has its name where it is above a beam that bends visibly, in stills and in slow motion, which give time
-// to read it.
-static void name_base_line(const MechanismScene& s, const std::vector<Vec2>& line) {
-    constexpr double kSlow = 0.1;  // of real time
-    const FilmSetup& setup = *s.at.context.setup;
-    const bool slow = setup.speeds.empty() ? setup.frames() == 1 : setup.speeds[std::size_t(s.frame)] <= kSlow;
-    if (!slow || !s.at.labelled() || s.at.ghosts) return;
-    const double size = s.at.context.look.letters.words;
-    const Box inside = s.at.box.inset(1.6 * size + s.at.fade());
-    std::size_t last = line.size();  // the point nearest to the tip that is drawn and in the view
-    for (std::size_t i = 0; i < line.size(); ++i)
-        if (!std::isnan(line[i].x) && inside.contains({line[i].x, line[i].y, 0, 0})) last = i;
-    if (last == line.size()) return;
-    // Above a line that rises from the hub or below one that falls, and towards the hub; where the beam is there, on
-    // the other side and away from the hub, if that is in the view.
-    const auto [upper, lower] = std::minmax({s.px(s.beam.back(last)).y, s.px(s.beam.face(last)).y});
-    const Vec2 o = s.at.px({0, 0});
-    const bool above = line[last].y < o.y, leftward = line[last].x < o.x;
-    const bool free = above ? upper >= line[last].y + 0.2 * size : lower <= line[last].y - 0.2 * size;
-    const bool rightward = leftward == free;  // the text begins at the line
-    const TextStyle style{.size = size, .color = s.at.palette.muted, .align = rightward ? HAlign::left : HAlign::right};
-    const std::string word = s.at.context.look.translate("undeflected");
-    const Vec2 at = line[last] + Vec2{(rightward ? 0.4 : -0.4) * size, (above == free ? -0.5 : 1.2) * size};
-    const double end = at.x + (rightward ? 1 : -1) * s.canvas.measure(word, style).w;
-    if (free || (end > s.at.box.x && end < s.at.box.right())) s.canvas.text(at, word, style);
+// Where the name of the line has room in the view: at its end or closer to the hub, on the side of `away`, where the
+// beam is not. The box extends away from the line at its corner, or the other way, and then begins farther from it.
+static std::optional<Box> box_of_name(const MechanismScene& s, const std::vector<Vec2>& line, Vec2 away, Vec2 size) {
+    const Box inside = s.at.box.inset(s.at.fade());
+    for (std::size_t i = line.size(); i-- > 0 && !std::isnan(line[i].x);)
+        for (const double side : {away.x < 0 ? -1.0 : 1.0, away.x < 0 ? 1.0 : -1.0}) {
+            const Vec2 corner = line[i] + away * (0.6 * size.y + std::max(0.0, -side * away.x * size.x));
+            const Box box{side < 0 ? corner.x - size.x : corner.x, away.y < 0 ? corner.y - size.y : corner.y, size.x,
+                          size.y};
+            if (inside.contains(box)) return box;
+        }
+    return std::nullopt;
 }
 
-// The base line of the exaggerated deflection.
-void draw_base_line(const MechanismScene& s) {
-    const bool led = sim::is_prescribed(s.at.problem().hub.drive);
-    const Vec2 base = sim::unit(s.at.look.factor == 1 && led ? s.pose.theta : s.beam.base_angle);
-    // Without exaggeration, the direction of a prescribed hub, unless it coincides with the horizontal.
-    if (s.at.look.factor == 1 && !(led && std::abs(base.y) > 0.01)) return;
+// The straight beam at the angle of the hub, where the tip of the drawn beam is visibly elsewhere. In stills and in
+// slow motion, which give time to read it, the line has its name, and there is none without room for that. The
+// horizontal is a line of its own, and compared motions have lines of their own.
+void draw_undeflected(const MechanismScene& s) {
+    constexpr double kApart = 8, kSlow = 0.1;  // [design px]; of real time
+    const Vec2 along = sim::unit(s.pose.theta), tip = s.px(along * norm(s.beam.line.back()));
+    const Vec2 apart = tip - s.px(s.beam.line.back());
+    if (norm(apart) < kApart * s.at.unit || std::abs(along.y) < 0.01 || s.at.ghosts) return;
     const double clear = 4 * s.at.unit / s.at.look.camera.scale;
     constexpr double kGap = std::numeric_limits<double>::quiet_NaN();  // interrupts the line
     std::vector<Vec2> line;  // only outside the section: dashes along its edge would be confusing
     for (Vec2 p : s.beam.line) {
-        const double below = -cross(base, p);  // the base line's offset from the centre line
+        const double below = -cross(along, p);  // the straight line's offset from the centre line
         const bool covered = below > s.beam.low - clear && below < s.beam.high + clear;
-        line.push_back(covered ? Vec2{kGap, kGap} : s.px(base * dot(base, p)));
+        line.push_back(covered ? Vec2{kGap, kGap} : s.px(along * dot(along, p)));
     }
-    s.canvas.clip(s.at.box, [&] {  // the base line may extend beyond the extent of the camera
+    if (std::isnan(line.back().x)) return;
+    const FilmSetup& setup = *s.at.context.setup;
+    const bool slow = setup.speeds.empty() ? setup.frames() == 1 : setup.speeds[std::size_t(s.frame)] <= kSlow;
+    if (slow && s.at.labelled()) {
+        const TextStyle style{.size = s.at.context.look.letters.words, .color = s.at.palette.muted};
+        const std::string word = s.at.context.look.translate("undeflected");
+        const std::optional<Box> box =
+            box_of_name(s, line, apart * (1 / norm(apart)), {s.canvas.measure(word, style).w, style.size});
+        if (!box) return;
+        s.canvas.text({box->x, box->bottom() - 0.2 * style.size}, word, style);
+    }
+    s.canvas.clip(s.at.box, [&] {  // the line may extend beyond the extent of the camera
         s.canvas.polyline(line);
         s.canvas.stroke({s.at.palette.faint, 1.5 * s.at.unit, {6 * s.at.unit, 7 * s.at.unit}, Cap::butt});
     });
-    name_base_line(s, line);
 }
 
 static bool is_flat(const MechanismScene& s) { return s.at.context.setup->view.style == Style::flat; }

@@ -1,5 +1,5 @@
-// What is drawn on a mechanism beside its letters: base line, marks of the disc, traces of the contact, and the motions
-// that it is compared with.
+// What is drawn on a mechanism beside its letters: undeflected beam, marks of the disc, traces of the contact, and the
+// motions that it is compared with.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace beamcam::render {
 
-void draw_base_line(const MechanismScene& s);
+void draw_undeflected(const MechanismScene& s);
 Color ink_on_disc(const MechanismScene& s);
 void draw_disc_marks(const MechanismScene& s, const Trace& trace);
 void draw_beam_trace(const MechanismScene& s, const Trace& trace);

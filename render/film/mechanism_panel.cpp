@@ -132,10 +132,9 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
     if (s.view) {
         const Vec2 o = at.px({0, 0});
         canvas.clip(at.box, [&] { canvas.line(s.on(o), s.on({at.box.right(), o.y}), horizontal_pen(at)); });
-    } else {
-        draw_base_line(s);
-        draw_angle(s);
     }
+    draw_undeflected(s);
+    draw_angle(s);
     tip_path_.draw_trail(s);
     canvas.without_halo([&] {
         draw_bodies(s, style, threads);
@@ -143,7 +142,6 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
     });
     if (at.ghosts) draw_ghost_outlines(s);
     if (at.member == 0) draw_measured_beams(s);
-    if (s.view) draw_angle(s);  // in the plane of the front of the beam: the mount must not hide it
     draw_cam_speed(s);
     draw_hub_torque(s);
     rings_.draw(s);

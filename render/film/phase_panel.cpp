@@ -2,10 +2,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 #include <span>
 
 #include "render/film/chart_panel.hpp"
 #include "render/plot/channel_label.hpp"
+#include "render/plot/ticks.hpp"
+#include "sim/beam/drive.hpp"
+#include "sim/beam/modes.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -29,21 +33,56 @@ TimedPath thinned(const std::vector<double>& times, const std::vector<Vec2>& poi
     return out;
 }
 
+// A period of the first natural vibration, where that is so fast that it would hide the path; else 0.
+double smoothing_time(const Motion& motion) {
+    constexpr double kSlow = 0.1;  // of the time of the chart
+    const auto* t = column(motion.chart, {ChannelKind::t, 0});
+    const std::vector<sim::Mode> modes = sim::natural_modes(motion.problem);
+    if (!t || t->empty() || modes.empty() || sim::is_prescribed(motion.problem.hub.drive)) return 0;
+    const double period = 2 * std::numbers::pi / modes.front().omega;
+    return period < kSlow * (t->back() - t->front()) ? period : 0;
+}
+
+struct Path {
+    std::vector<double> theta, speed;  // in the rows of a chart [rad], [rad/s]
+};
+
+// The mean over this time around each row, or the part of it that the rows have, and its derivative.
+Path mean_of(const std::vector<double>& t, const std::vector<double>& theta, double time) {
+    std::vector<double> integral{0};
+    for (std::size_t i = 1; i < t.size(); ++i)
+        integral.push_back(integral.back() + (theta[i] + theta[i - 1]) / 2 * (t[i] - t[i - 1]));
+    Path path;
+    for (const double now : t) {
+        const double from = std::max(now - time / 2, t.front()), to = std::min(now + time / 2, t.back());
+        const auto rate = [&](const std::vector<double>& of) {
+            return (value_at(t, of, to) - value_at(t, of, from)) / (to - from);
+        };
+        path.theta.push_back(rate(integral));
+        path.speed.push_back(rate(theta));
+    }
+    return path;
+}
+
+// Smoothed twice, which leaves little of the higher vibrations.
+Path path_of(const Motion& motion, double time) {
+    const auto *t = column(motion.chart, {ChannelKind::t, 0}), *theta = column(motion.chart, {ChannelKind::theta, 0}),
+               *speed = column(motion.chart, {ChannelKind::theta_dot, 0});
+    if (!t || !theta || !speed) return {};
+    if (time == 0) return {*theta, *speed};
+    return mean_of(*t, mean_of(*t, *theta, time).theta, time);
+}
+
 class PhasePanel final : public FilmPanel {
   public:
     PhasePanel(const FilmContext& context, const PanelSlot& slot)
         : context_(context), box_(slot.box), style_(chart_style(context)), plot_(axes_, style_, "phase") {
         Bounds all;
         for (int m = 0; m < context.members(); ++m) {
-            const sim::Table& table = context.motion(m).chart;
-            const auto *x = column(table, {ChannelKind::theta, 0}), *y = column(table, {ChannelKind::theta_dot, 0});
-            for (std::size_t i = 0; x && y && i < x->size(); ++i) {
-                all.add({(*x)[i], (*y)[i]});
-            }
-            for (int k = 0; k < context.frames(); ++k) {
-                const sim::Pose p = context.pose(m, k);
-                all.add({p.theta, p.theta_dot});
-            }
+            const double time = smoothing_time(context.motion(m));
+            smoothing_ = std::max(smoothing_, time);
+            const Path& path = smooth_.emplace_back(path_of(context.motion(m), time));
+            for (std::size_t i = 0; i < path.theta.size(); ++i) all.add({path.theta[i], path.speed[i]});
         }
         axes_.x = axis(all.x0, all.x1, "$θ$", ChannelKind::theta, x_factor_);
         axes_.y = axis(all.y0, all.y1, "d$θ$/d$t$", ChannelKind::theta_dot, y_factor_);
@@ -55,11 +94,15 @@ class PhasePanel final : public FilmPanel {
     void draw_background(Canvas& canvas) const override {
         const double u = context_.look.unit;
         const std::string name = plot_.y().name(),
-                          words = heading(ChannelKind::theta_dot, context_.setup->view.lang) + name;
+                          words = heading(ChannelKind::theta_dot, context_.setup->view.lang) + name,
+                          smoothing = smoothing_ > 0
+                                          ? context_.look.translate("smoothed over " + quantity(smoothing_, "s"))
+                                          : std::string(),
+                          end = smoothing.empty() ? smoothing : ", " + smoothing;
         const TextStyle heading{.size = context_.look.letters.heading, .weight = Weight::semibold};
         const Box& plot = plot_.box();
         draw_heading(canvas, context_, {plot.x, box_.y, plot.w, plot.h},
-                     first_that_fits(canvas, {words, name}, heading, plot.w));
+                     first_that_fits(canvas, {words + end, name + end, name}, heading, plot.w));
         plot_.draw_y_axis(canvas);
         plot_.draw_x_axis(canvas);
         for (std::size_t m = 0; m < paths_.size(); ++m) {
@@ -76,8 +119,11 @@ class PhasePanel final : public FilmPanel {
             canvas.stroke({color(m), 1.3 * context_.look.unit});
         }
         for (std::size_t m = 0; m < paths_.size(); ++m) {
-            const sim::Pose& pose = context_.pose(static_cast<int>(m), frame);
-            canvas.circle(to_pixels(pose.theta, pose.theta_dot), 6 * context_.look.unit);
+            const auto* t = column(context_.motion(static_cast<int>(m)).chart, {ChannelKind::t, 0});
+            const auto& [theta, speed] = smooth_[m];
+            if (!t || theta.empty()) continue;
+            const double now = context_.clock.at(frame);
+            canvas.circle(to_pixels(value_at(*t, theta, now), value_at(*t, speed, now)), 6 * context_.look.unit);
             canvas.fill_keeping_path(color(m));
             canvas.stroke({context_.look.palette.paper, 1.6 * context_.look.unit});
         }
@@ -99,12 +145,11 @@ class PhasePanel final : public FilmPanel {
     }
     Vec2 to_pixels(double theta, double speed) const { return plot_.at(x_factor_ * theta, y_factor_ * speed); }
     TimedPath path(int member) const {
-        const sim::Table& table = context_.motion(member).chart;
-        const auto *t = column(table, {ChannelKind::t, 0}), *x = column(table, {ChannelKind::theta, 0}),
-                   *y = column(table, {ChannelKind::theta_dot, 0});
-        if (!t || !x || !y) return {};
+        const auto* t = column(context_.motion(member).chart, {ChannelKind::t, 0});
+        const auto& [theta, speed] = smooth_[static_cast<std::size_t>(member)];
         std::vector<Vec2> points;
-        for (std::size_t i = 0; i < t->size(); ++i) points.push_back(to_pixels((*x)[i], (*y)[i]));
+        for (std::size_t i = 0; i < theta.size(); ++i) points.push_back(to_pixels(theta[i], speed[i]));
+        if (points.empty()) return {};
         return thinned(*t, points, 0.7);
     }
 
@@ -116,6 +161,8 @@ class PhasePanel final : public FilmPanel {
     figure::PlotStyle style_;
     figure::Panel axes_;
     figure::Plot plot_;
+    double smoothing_ = 0;  // the longest [s]
+    std::vector<Path> smooth_;
     std::vector<TimedPath> paths_;
 };
 

@@ -291,7 +291,10 @@ ChartContent strip_content(const FilmContext& context, const PanelSpec& spec) {
         }
     }
     symbols += add_sticking(context, spec, c);
-    if (shows_peaks(spec)) c.rows = static_cast<std::size_t>(context.members());
+    if (shows_peaks(spec)) {
+        c.rows = static_cast<std::size_t>(context.members());
+        c.peak = context.look.translate("peak") + "\u00A0";
+    }
     Range values = range_of(context, spec, c.panel.series);
     if (single && dotted) values = add_places(context, shown_time(context, spec), c);
     add_data(context, spec, c, values);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "render/plot/ticks.hpp"
@@ -9,8 +10,9 @@
 namespace beamcam::render {
 namespace {
 
-constexpr double kBetweenReadings = 18;               // [design px]
-constexpr double kBetweenRows = 1, kLowestRow = 0.9;  // in sizes of the numbers
+constexpr double kBetweenReadings = 18;                                  // [design px]
+constexpr double kBetweenRows = 1, kLowestRow = 0.9, kAbovePeak = 1.25;  // in sizes of the numbers
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 void draw_all(Canvas& canvas, const std::vector<figure::Plot>& rows, const figure::Interval& part) {
     for (const figure::Plot& row : rows) row.draw_data(canvas, part);
@@ -53,14 +55,17 @@ void Chart::make_rows(const Fonts& fonts) {
     const auto wanted = static_cast<double>(c_.rows);
     const double gap = std::round(kBetweenRows * style_.numbers), high = std::floor((area_.h + gap) / wanted - gap);
     const std::size_t rows = high < kLowestRow * style_.numbers ? 1 : c_.rows;
+    const double above = kAbovePeak * style_.numbers / (rows == 1 ? area_.h : high);  // share of a row
+    const double room = c_.peak.empty() || above > 0.5 ? 1 : std::max(1.0, 1 / (1.2 * (1 - above)));
     for (std::size_t k = 0; k < rows; ++k) {
         figure::Panel& row = panels_.emplace_back(c_.panel);
+        *row.y.to *= room;
         if (rows == 1) break;
         row.series.assign(c_.panel.series.begin() + std::ptrdiff_t(rows), c_.panel.series.end());
         row.series.push_back(c_.panel.series[k]);
         const std::vector<double>& values = row.series.back().y;
         const double largest = values.empty() ? 0 : std::ranges::max(values);
-        if (largest > 0 && largest < 0.05 * c_.values().high) row.y.to = 1.2 * largest;
+        if (largest > 0 && largest < 0.05 * c_.values().high) row.y.to = 1.2 * room * largest;
         std::erase_if(row.events, [k](const figure::EventTick& at) { return at.lane != static_cast<int>(k); });
         for (figure::EventTick& at : row.events) at.lane = 0, at.lanes = 1;
     }
@@ -124,7 +129,7 @@ void Chart::draw_moving(Canvas& canvas, double t, std::span<const double> readin
         const Box box = past_box();
         from = std::max<double>(over ? std::lround(area_.right() + 1) : past_column(t), box.x);
         canvas.image_part(past_, static_cast<int>(box.x), static_cast<int>(box.y), {0, 0, from - box.x, box.h});
-        if (over) return draw_peaks(canvas, plots_, from, {}, peaks);
+        if (over) return draw_readings(canvas, reading_texts(canvas, {}, draw_peaks(canvas, plots_, from, peaks)));
     }
     std::vector<figure::Plot> moved;  // the window
     if (windowed()) moved = plots_;
@@ -142,7 +147,7 @@ void Chart::draw_moving(Canvas& canvas, double t, std::span<const double> readin
                                 std::min(t, view.high), true};
     canvas.clip({from, top, cut - from, past_box().h}, [&] { draw_all(canvas, shown, past); });
     if (!over) draw_cursor(canvas, cut - 0.5, readings);
-    draw_peaks(canvas, shown, cut, readings, peaks);
+    draw_readings(canvas, reading_texts(canvas, readings, draw_peaks(canvas, shown, cut, peaks)));
 }
 
 void Chart::draw_cursor(Canvas& canvas, double x, std::span<const double> readings) const {
@@ -158,45 +163,35 @@ void Chart::draw_cursor(Canvas& canvas, double x, std::span<const double> readin
         canvas.fill_keeping_path(reading_color(i));
         canvas.stroke({palette_.paper, 1.6 * u});
     }
-    draw_readings(canvas, readings);
 }
 
-// Above its point and what its curve has under the number, or where the row has no room beside it, on the side where
-// the curve is lower; before the cursor; none that the reading states, nor where curves share a row.
-void Chart::draw_peaks(Canvas& canvas, const std::vector<figure::Plot>& rows, double cursor,
-                       std::span<const double> readings, std::span<const Vec2> peaks) const {
-    const double size = style_.numbers, gap = 8 * style_.unit;
-    for (std::size_t i = 0; i < peaks.size() && c_.rows == rows.size(); ++i) {
+// Centred above its own peak. Returns the values that do not fit there: between the axis and the cursor, inside the
+// axes, with nothing higher of the curve under them, in a row of their own.
+std::vector<double> Chart::draw_peaks(Canvas& canvas, const std::vector<figure::Plot>& rows, double cursor,
+                                      std::span<const Vec2> peaks) const {
+    const double size = style_.numbers, end = std::min(cursor - 8 * style_.unit, area_.right());
+    std::vector<double> left_out;
+    for (std::size_t i = 0; i < peaks.size(); ++i) {
+        left_out.push_back(kNan);
+        if (std::isnan(peaks[i].y)) continue;
         const figure::Plot& row = row_of(rows, i);
         const Vec2 at = row.at(peaks[i].x, peaks[i].y);
-        if (!(at.x >= area_.x && at.x < cursor)) continue;
         const TextStyle style{.size = size,
                               .color = readable(palette_, reading_color(i)),
                               .weight = Weight::medium,
-                              .align = HAlign::right,
+                              .align = HAlign::centre,
                               .halo = palette_.paper};
         const std::string text = reading_text(peaks[i].y);
-        if (i < readings.size() && text == reading_text(readings[i])) continue;
-        const double wide = canvas.measure(text, style).w;
-        const auto top_before = [&](double end) {  // of the curve under a text that ends there
-            double top = row.box().bottom();
-            for (std::size_t k = 0; k < c_.panel.series[i].x.size(); ++k)
-                if (const Vec2 p = row.at(c_.panel.series[i].x[k], c_.panel.series[i].y[k]);
-                    p.x > end - wide && p.x < end)
-                    top = std::min(top, p.y);
-            return top;
-        };
-        double end = std::min(at.x + wide / 2, cursor - gap);
-        if (end < area_.x + wide) end = cursor + gap + wide;  // there is no room before the cursor
-        const double top = std::min(at.y, top_before(end)), left = at.x - gap, right = at.x + gap + wide;
-        if (top > row.box().y + (i == 0 ? 0.7 : 1) * size) {  // ticks of events are above lower rows
-            canvas.text({end, top - 0.45 * size}, text, style);
-            continue;
-        }
-        const bool fits = right < cursor - gap, leftmost = left < area_.x + wide;
-        const bool to_right = fits && (leftmost || top_before(right) > top_before(left));
-        canvas.text({to_right ? right : std::max(left, area_.x + wide), at.y + 0.35 * size}, text, style);
+        const double half = canvas.measure(text, style).w / 2;
+        bool fits = c_.rows == rows.size() && at.x - half >= area_.x && at.x + half <= end &&
+                    at.y - kAbovePeak * size >= row.box().y;
+        const figure::Series& curve = c_.panel.series[i];
+        for (std::size_t k = 0; k < curve.x.size() && fits; ++k)
+            fits = !(curve.y[k] > peaks[i].y && std::abs(row.at(curve.x[k], 0).x - at.x) < half);
+        if (fits) canvas.text(at - Vec2{0, 0.45 * size}, text, style);
+        if (!fits) left_out.back() = peaks[i].y;
     }
+    return left_out;
 }
 
 // ---- the heading's line ------------------------------------------------------------------------
@@ -214,11 +209,13 @@ Color Chart::reading_color(std::size_t curve) const {
 
 // The readings are beside it.
 void Chart::draw_heading(Canvas& canvas) const {
+    canvas.text({area_.x, box_.y + 26 * style_.unit}, heading_text(canvas), heading_style());
+}
+
+std::string Chart::heading_text(Canvas& canvas) const {
     const std::string name = plots_[0].y().name();
-    const double room = area_.w - reading_width(canvas, true, true);
-    canvas.text({area_.x, box_.y + 26 * style_.unit},
-                first_that_fits(canvas, {c_.words + name, c_.short_words + name, name}, heading_style(), room),
-                heading_style());
+    const double room = area_.w - reading_width(canvas, true, true) - canvas.measure(c_.peak, reading_style({})).w;
+    return first_that_fits(canvas, {c_.words + name, c_.short_words + name, name}, heading_style(), room);
 }
 
 // In the unit of the axis, with the decimals that its ticks ask for; what these show as zero has none.
@@ -252,8 +249,23 @@ double Chart::reading_width(Canvas& canvas, bool names, bool values) const {
     return all;
 }
 
+// The readings, and where the force is zero, the peaks that are left out in the chart, if there is room.
+std::vector<std::string> Chart::reading_texts(Canvas& canvas, std::span<const double> readings,
+                                              std::span<const double> left_out) const {
+    double room = area_.w - canvas.measure(heading_text(canvas), heading_style()).w - reading_width(canvas, true, true);
+    std::vector<std::string> texts;
+    for (std::size_t i = 0; i < std::max(readings.size(), left_out.size()); ++i) {
+        const double v = i < readings.size() ? readings[i] : kNan, peak = i < left_out.size() ? left_out[i] : kNan;
+        const double wide = canvas.measure(c_.peak, reading_style({})).w;
+        const bool shows_peak = !std::isnan(peak) && !(v > 0) && wide <= room;
+        if (shows_peak) room -= wide;
+        texts.push_back(shows_peak ? c_.peak + reading_text(peak) : std::isnan(v) ? "" : reading_text(v));
+    }
+    return texts;
+}
+
 // At the right end, that of the last curve outermost; without names, or names alone, if there is no room for both.
-void Chart::draw_readings(Canvas& canvas, std::span<const double> readings) const {
+void Chart::draw_readings(Canvas& canvas, const std::vector<std::string>& readings) const {
     const double u = style_.unit;
     const double room = area_.w - canvas.measure(plots_[0].y().name(), heading_style()).w, baseline = box_.y + 26 * u;
     const bool named = reading_width(canvas, true, true) <= room;
@@ -262,28 +274,18 @@ void Chart::draw_readings(Canvas& canvas, std::span<const double> readings) cons
     const double widest = widest_reading(canvas);
     double right = area_.right() + 8 * u;
     for (std::size_t i = readings.size(); i-- > 0;) {
-        const double v = readings[i];
         const bool has_name = (named || names_only) && i < c_.panel.series.size();
         const std::string label = has_name ? name_of(c_.panel.series[i], named) : std::string();
-        const TextStyle style = reading_style(readable(palette_, reading_color(i)));
-        if (names_only) {
-            canvas.text({right, baseline}, label, style);
-            right -= canvas.measure(label, style).w;
-        } else if (label.empty()) {
-            if (!std::isnan(v)) canvas.text({right, baseline}, reading_text(v), style);
-            right -= widest;
-        } else {
-            right -= widest;
-            TextStyle beside = style;
-            beside.align = HAlign::left;
-            // A name without a value would look like an error.
-            const std::string number = std::isnan(v) ? "–" : reading_text(v);
-            right -= std::max(0.0, canvas.measure(number, beside).w - widest);
-            canvas.text({right, baseline}, number, beside);
-            canvas.text({right, baseline}, label, style);
-            right -= canvas.measure(label, style).w;
-        }
-        right -= kBetweenReadings * u;
+        TextStyle style = reading_style(readable(palette_, reading_color(i)));
+        // A name without a value would look like an error.
+        const std::string number = names_only ? "" : readings[i].empty() && !label.empty() ? "–" : readings[i];
+        const double wide = canvas.measure(number, style).w;
+        if (!names_only && !label.empty()) style.align = HAlign::left, right -= std::max(widest, wide);
+        canvas.text({right, baseline}, number, style);
+        if (!names_only && label.empty()) right -= std::max(widest, wide);
+        style.align = HAlign::right;
+        canvas.text({right, baseline}, label, style);
+        right -= canvas.measure(label, style).w + kBetweenReadings * u;
     }
 }
 

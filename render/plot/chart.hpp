@@ -29,6 +29,7 @@ struct ChartContent {
     figure::Panel panel = {};           // x is time [s]
     std::optional<double> window = {};  // [s]
     bool names_first = false;  // rather the names of the curves than their readings, if only one of them has room
+    std::string peak = {};     // before a peak among the readings: "peak "; empty: there are no peaks
     std::size_t rows = 1;      // the first curves that have a row each, where there is room; the others are in all rows
 
     Range time() const { return {*panel.x.from, *panel.x.to}; }
@@ -48,7 +49,7 @@ class Chart {
 
     void draw_background(Canvas& canvas) const;  // axes, labels, the future
     // The curves until t, and the cursor, which is only within the time of the chart. `readings`: the values of the
-    // curves at the cursor; NaN: none. `peaks`: points of the curves that have their value beside them; NaN: none.
+    // curves at the cursor; NaN: none. `peaks`: points of the curves that have their value above them; NaN: none.
     void draw_moving(Canvas& canvas, double t, std::span<const double> readings,
                      std::span<const Vec2> peaks = {}) const;
     Range time() const { return c_.time(); }
@@ -61,8 +62,8 @@ class Chart {
         return {around.x, around.y, around.w, around.h - kAround + std::ceil(plots_[0].numbers_below())};
     }
     void make_rows(const Fonts& fonts);
-    void draw_peaks(Canvas& canvas, const std::vector<figure::Plot>& rows, double cursor,
-                    std::span<const double> readings, std::span<const Vec2> peaks) const;
+    std::vector<double> draw_peaks(Canvas& canvas, const std::vector<figure::Plot>& rows, double cursor,
+                                   std::span<const Vec2> peaks) const;
     // The first column that may hold future at t: the stroke of a later row may reach into it.
     int past_column(double t) const;
     void draw_whole_past(const Fonts& fonts);
@@ -74,9 +75,12 @@ class Chart {
     TextStyle reading_style(Color color) const;
     Color reading_color(std::size_t curve) const;
     void draw_heading(Canvas& canvas) const;
+    std::string heading_text(Canvas& canvas) const;
     std::string reading_text(double value) const;
     double widest_reading(Canvas& canvas) const;  // [px]
-    void draw_readings(Canvas& canvas, std::span<const double> readings) const;
+    std::vector<std::string> reading_texts(Canvas& canvas, std::span<const double> readings,
+                                           std::span<const double> left_out) const;
+    void draw_readings(Canvas& canvas, const std::vector<std::string>& readings) const;
     double reading_width(Canvas& canvas, bool names, bool values) const;  // of all readings together [px]
 
     ChartContent c_;

@@ -10,6 +10,7 @@
 #include "render/draw/markup.hpp"
 #include "scenes/figures/caption.hpp"
 #include "scenes/figures/series_data.hpp"
+#include "scenes/plan/resolve.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -21,7 +22,15 @@ std::string beyond_model(const sim::Problem& problem) {
     return fmt::format("bends beyond {}", sim::name(problem.beam.model));
 }
 
-render::Motion motion_of(const PlannedPictures& p, const MotionRequest& shown, sim::Result& result) {
+// Until when curves are paler where θ is not reproducible: they are those of strip charts.
+double paler_until(const PlannedPictures& p, const Scene& scene) {
+    const bool strips = std::ranges::any_of(panels_of(p, scene, p.end_time), [](const render::PanelSpec& panel) {
+        return panel.kind == render::PanelKind::strip;
+    });
+    return p.horizon && strips && !p.times.chart.empty() ? p.times.chart.back() : 0;
+}
+
+render::Motion motion_of(const MotionRequest& shown, sim::Result& result, double paler_until) {
     render::Motion motion;
     motion.problem = shown.problem;
     motion.label = shown.label;
@@ -32,9 +41,8 @@ render::Motion motion_of(const PlannedPictures& p, const MotionRequest& shown, s
     if (shown.problem.cam) motion.trace = std::move(result.tables[kTraceTable]);
     motion.impacts = result.impacts;
     motion.end = result.end_time;
-    if (p.horizon)  // curves are paler where θ is not reproducible
-        for (const UnreliableInterval& lost : unreliable_intervals(result, std::numeric_limits<double>::infinity()))
-            motion.unreliable.push_back({lost.from, lost.to});
+    for (const UnreliableInterval& lost : unreliable_intervals(result, std::numeric_limits<double>::infinity()))
+        if (lost.from < paler_until) motion.unreliable.push_back({lost.from, lost.to});
     return motion;
 }
 
@@ -62,12 +70,12 @@ std::vector<render::FilmData> data_of(const Scene& scene) {
     return out;
 }
 
-void add_motions(const Plan& plan, const PlannedPictures& p, std::span<sim::Result* const> results,
+void add_motions(const Plan& plan, const PlannedPictures& p, const Scene& scene, std::span<sim::Result* const> results,
                  render::FilmSetup& setup) {
     for (std::size_t i = 0; i < p.motions.size(); ++i) {
         const MotionRequest& shown = plan.motions[p.motions[i]];
         if (results[i]->beyond_model) setup.warning = beyond_model(shown.problem);
-        render::Motion motion = motion_of(p, shown, *results[i]);
+        render::Motion motion = motion_of(shown, *results[i], paler_until(p, scene));
         if (i == 0)
             static_cast<render::Motion&>(setup) = std::move(motion);
         else
@@ -105,7 +113,7 @@ render::FilmSetup film_setup(const Plan& plan, const PlannedPictures& p, const S
     setup.callouts = p.times.callouts;
     setup.data = data_of(scene);
     setup.moves = p.times.moves;
-    add_motions(plan, p, results, setup);
+    add_motions(plan, p, scene, results, setup);
     return setup;
 }
 

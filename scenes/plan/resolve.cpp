@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <future>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -170,7 +171,8 @@ ResolvedOutput resolved_picture(std::size_t index, PictureOutput p, const Scene&
     FilmTimes times;
     switch (p.kind) {
         case PictureOutput::Kind::still:
-            times = still_times(p.at, motion, end, collisions ? slowed : std::vector<sim::Impact>{});
+            times = still_times(p.at, motion, end, collisions ? slowed : std::vector<sim::Impact>{},
+                                2 * std::numbers::pi / std::abs(scene.problem.cam ? scene.problem.cam->speed : 0.0));
             break;
         case PictureOutput::Kind::page:
             p.view.style = render::Style::flat;

@@ -120,13 +120,9 @@ std::string energy_at_apex(double touch, double apex, const sim::Problem& proble
     for (const Part& each : sources)  // parts below half a percent are left out
         if (each.size > 0.005 * all)
             from += fmt::format("{}{} {}", from.empty() ? "" : ", ", quantity(each.size, "J"), each.name);
-    double used = 0;  // rounded in turn, so that the percentages add to 100
-    for (const Part& each : uses) {
-        const double before = std::round(100 * used / all);
-        used += std::max(each.size, 0.0);
-        const double percent = std::round(100 * used / all) - before;
-        if (percent > 0) to += fmt::format("{}{:.0f} % {}", to.empty() ? "" : ", ", percent, each.name);
-    }
+    for (const Part& each : uses)
+        if (const double percent = std::round(100 * each.size / all); percent > 0)
+            to += fmt::format("{}{:.0f} % {}", to.empty() ? "" : ", ", percent, each.name);
     return "energy " + from + ": " + to;
 }
 
@@ -150,6 +146,7 @@ void tell_collision(PictureOutput& film, const sim::Collision& c, double liftoff
     constexpr double kAtTouch = 0.8, kAtPeak = 1.5, kAtLiftoff = 1.5;  // freezes [s]
     const double touch = c.t_start;
     tell(film, touch, touch_of(c), kAtTouch);
+    if (liftoff == touch) film.span.events.back().show = kAtTouch;  // it is true while they touch
     if (c.t_peak && c.force_peak && *c.t_peak < liftoff)
         tell(film, *c.t_peak,
              fmt::format("largest force {}, {} after the touch", quantity(*c.force_peak, "N"),
@@ -204,7 +201,7 @@ PictureOutput told_impact(PictureOutput film, const Scene& scene, const sim::Res
 // ---- "settle" ----------------------------------------------------------------------------------
 
 PictureOutput told_settle(PictureOutput film, const Scene& scene, const sim::Result& motion) {
-    constexpr double kFirst = 4, kMiddle = 5, kLast = 3, kAtTouch = 0.8, kAtRest = 1.5;  // durations in the film [s]
+    constexpr double kFirst = 4, kMiddle = 5, kLast = 3, kAtTouch = 1.5, kAtRest = 1.5;  // durations in the film [s]
     constexpr std::size_t kBounces = 3;                                                  // collisions in the first part
     FrameSpan& span = film.span;
     const std::size_t number = collision_after(span.from, motion), later = number + kBounces;
@@ -231,6 +228,8 @@ PictureOutput told_settle(PictureOutput film, const Scene& scene, const sim::Res
         span.speed.intervals[k].factor = std::max(span.speed.intervals[k].factor, span.speed.intervals[k - 1].factor);
     tell_beginning(film, scene.problem);
     tell(film, first.t_start, touch_of(first), kAtTouch);
+    const double touching = (first.t_end.value_or(*span.to) - first.t_start) / span.speed.intervals.front().factor;
+    film.span.events.back().show = std::min(kShown, kAtTouch + touching);  // it is true while they touch
     const auto strongest = std::ranges::max_element(motion.collisions, {},
                                                     [](const sim::Collision& c) { return c.force_peak.value_or(0); });
     if (strongest->t_peak && strongest->t_start > first.t_start && *strongest->t_peak < slow_until)
@@ -241,13 +240,16 @@ PictureOutput told_settle(PictureOutput film, const Scene& scene, const sim::Res
         return std::ranges::count_if(motion.impacts,
                                      [&](const sim::Impact& i) { return i.t_start >= from && i.t_start < to; });
     };
+    const auto all = impacts_between(first.t_start, settled);
+    const bool endless = scene.problem.contact.model != sim::ContactModel::compliant && all > 1;
     if (const auto more = impacts_between(slow_until, settled); more > 1) {
-        tell(film, slow_until, fmt::format("{} more impacts in {}", more, quantity(settled - slow_until, "s")));
+        const std::string count = endless ? "infinitely many" : fmt::format("{}", more);
+        tell(film, slow_until, fmt::format("{} more impacts in {}", count, quantity(settled - slow_until, "s")));
         film.span.events.back().show = kMiddle;
     }
     tell(film, settled,
          fmt::format("stays in contact from {:.4g} s on, after {}", settled,
-                     counted(impacts_between(first.t_start, settled), "impact")),
+                     endless ? "infinitely many impacts" : counted(all, "impact")),
          kAtRest);
     return film;
 }

@@ -15,10 +15,10 @@ namespace {
 // columns, and enough for a smooth curve in a very short film.
 constexpr double kChartRate = 4000;  // [Hz]
 constexpr double kMostChartPoints = 20000, kFewestChartPoints = 2000;
-constexpr double kFinePoints = 40000;                   // in slow motion
-constexpr double kLatest = 0.05, kLatestRate = 40'000;  // [s], [Hz]: rows before a still
-constexpr int kFineSteps = 8;                           // between two frames
-constexpr double kLongestCollision = 0.1;               // [s] that a strip shows of one
+constexpr double kFinePoints = 40000;                    // in slow motion
+constexpr double kLatest = 0.05, kLatestRate = 40'000;   // [s], [Hz]: rows before a still
+constexpr int kFineSteps = 8;                            // between two frames
+constexpr double kLasting = 1, kLongestCollision = 0.1;  // [s]: a strip shows less of a contact that lasts
 // Samples for the choice of scales; collisions have additional samples.
 constexpr int kSurveyed = 300;
 
@@ -203,13 +203,16 @@ std::vector<double> rows_of(Contacts which, const std::vector<sim::Impact>& impa
     return out;
 }
 
-// The end of the collision at `t` with a short margin; `t` if there is none.
+// The end of the collision at `t` with a short margin, or of what a strip shows of a contact that lasts; `t` if there
+// is none.
 double end_of_collision(const sim::Result& motion, double t) {
     std::optional<int> which;
     double begin = t, end = t;
     for (const sim::Impact& i : motion.impacts) {
         if (!which && i.t_start == t) which = i.collision;
-        if (which == i.collision) end = std::max(end, std::min(i.t_end.value_or(t), t + kLongestCollision));
+        if (which != i.collision) continue;
+        const bool lasts = !i.t_end || *i.t_end > t + kLasting;
+        end = std::max(end, lasts ? t + kLongestCollision : *i.t_end);
     }
     return end + 0.15 * (end - begin);
 }
@@ -271,14 +274,17 @@ FilmTimes page_times(const FrameSpan& span, double end_time, const sim::Result& 
 }
 
 FilmTimes still_times(const Instant& at, const sim::Result& motion, double until,
-                      const std::vector<sim::Impact>& impacts) {
+                      const std::vector<sim::Impact>& impacts, double turn) {
     FilmTimes out;
     const double t = instant_of(at, motion);
     out.frames = {t};
     // An impact is not visible at its first touch: the charts continue to the end of its collision.
-    const double ahead = at.kind == Instant::Kind::time ? t : std::max(t, std::min(end_of_collision(motion, t), until));
+    // One of the beginning shows the first turn of the cam.
+    const double ahead = t == 0                           ? std::min(turn, until)
+                         : at.kind == Instant::Kind::time ? t
+                                                          : std::max(t, std::min(end_of_collision(motion, t), until));
     out.chart = rows(0, t, std::max(chart_rate(t), std::min(kLatestRate, kMostChartPoints / t)));
-    if (ahead > t) merge(out.chart, rows(t, ahead, 600 / (ahead - t)));
+    if (ahead > t) merge(out.chart, rows(t, ahead, chart_rate(ahead - t)));
     // The collision that a still shows may be milliseconds long.
     merge(out.chart, rows(std::max(0.0, t - kLatest), t, kLatestRate));
     out.trace = out.chart;

@@ -2,6 +2,7 @@
 // motion and freezes, which may depend on events.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -50,8 +51,10 @@ FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& 
 // The instants of a page: those of `span`, and more within impacts, so that the force is known between them.
 FilmTimes page_times(const FrameSpan& span, double end_time, const sim::Result& motion);
 // `until`: end of the motion that determines the scales [s]. `impacts`: charts get more rows within their collisions.
+// `turn`: the time that a still of the beginning shows [s].
 FilmTimes still_times(const Instant& at, const sim::Result& motion, double until,
-                      const std::vector<sim::Impact>& impacts = {});
+                      const std::vector<sim::Impact>& impacts = {},
+                      double turn = std::numeric_limits<double>::infinity());
 
 // The camera's movements to the keyframes. Throws render::PictureError for an event that does not occur; `shortened`:
 // such a keyframe is skipped.

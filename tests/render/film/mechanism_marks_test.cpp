@@ -63,7 +63,7 @@ FilmSetup visible_film_of(Style style) {
 }
 
 // A film shows the word in slow motion only, on the side of a bent beam that is free.
-TEST(MechanismMarks, TheBaseLineIsNamedWhereThereIsTimeToReadIt) {
+TEST(MechanismMarks, TheUndeflectedBeamIsNamedWhereThereIsTimeToReadIt) {
     const auto words = [](double speed, double bend) {
         FilmSetup setup = visible_film_of(Style::flat);
         setup.view.exaggeration = 20;
@@ -77,7 +77,7 @@ TEST(MechanismMarks, TheBaseLineIsNamedWhereThereIsTimeToReadIt) {
             }
         }
         Marks marks(setup);
-        marks.drawn([](const MechanismScene& s) { draw_base_line(s); });
+        marks.drawn([](const MechanismScene& s) { draw_undeflected(s); });
         return marks.texts.size();
     };
     EXPECT_EQ(words(0.01, -0.01), 1U);

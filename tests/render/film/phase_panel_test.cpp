@@ -17,6 +17,7 @@ TEST(PhasePanel, ScalesEachAxisToItsOwnUnit) {
     const auto chart = [](SpeedUnit unit, double factor) {
         FilmSetup setup = test::flat_film({.duration = 0.8}, 960, 540);
         setup.layout = leaf({.kind = PanelKind::phase});
+        setup.problem.beam.model = sim::ModelKind::rigid;  // whose curve is not smoothed
         setup.units = {.degrees = true, .speed = unit};
         setup.chart.channels.push_back({ChannelKind::theta_dot, 0});
         std::vector<double> speed;
