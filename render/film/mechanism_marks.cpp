@@ -27,9 +27,10 @@ static std::optional<Box> box_of_name(const MechanismScene& s, const std::vector
 // horizontal is a line of its own, and compared motions have lines of their own.
 void draw_undeflected(const MechanismScene& s) {
     constexpr double kApart = 8, kSlow = 0.1;  // [design px]; of real time
+    if (!s.at.labelled() || s.at.ghosts) return;
     const Vec2 along = sim::unit(s.pose.theta), tip = s.px(along * norm(s.beam.line.back()));
     const Vec2 apart = tip - s.px(s.beam.line.back());
-    if (norm(apart) < kApart * s.at.unit || std::abs(along.y) < 0.01 || s.at.ghosts) return;
+    if (norm(apart) < kApart * s.at.unit || std::abs(along.y) < 0.01) return;
     const double clear = 4 * s.at.unit / s.at.look.camera.scale;
     constexpr double kGap = std::numeric_limits<double>::quiet_NaN();  // interrupts the line
     std::vector<Vec2> line;  // only outside the section: dashes along its edge would be confusing
@@ -41,7 +42,7 @@ void draw_undeflected(const MechanismScene& s) {
     if (std::isnan(line.back().x)) return;
     const FilmSetup& setup = *s.at.context.setup;
     const bool slow = setup.speeds.empty() ? setup.frames() == 1 : setup.speeds[std::size_t(s.frame)] <= kSlow;
-    if (slow && s.at.labelled()) {
+    if (slow) {
         const TextStyle style{.size = s.at.context.look.letters.words, .color = s.at.palette.muted};
         const std::string word = s.at.context.look.translate("undeflected");
         const std::optional<Box> box =
