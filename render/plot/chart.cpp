@@ -214,7 +214,8 @@ void Chart::draw_heading(Canvas& canvas) const {
 
 std::string Chart::heading_text(Canvas& canvas) const {
     const std::string name = plots_[0].y().name();
-    const double room = area_.w - reading_width(canvas, true, true) - canvas.measure(c_.peak, reading_style({})).w;
+    const double peaks = static_cast<double>(c_.rows) * canvas.measure(c_.peak, reading_style({})).w,
+                 room = area_.w - reading_width(canvas, true, true) - peaks;
     return first_that_fits(canvas, {c_.words + name, c_.short_words + name, name}, heading_style(), room);
 }
 
