@@ -121,8 +121,9 @@ struct Shape {
 };
 
 struct Panel {
-    std::string letter = {};  // "a": "(a)" in the upper left corner
-    std::string title = {};   // markup, beside the letter
+    std::string letter = {};   // "a": "(a)" in the upper left corner
+    std::string title = {};    // markup, beside the letter
+    std::string caption = {};  // markup: what it shows, after its letter in the caption of the figure
     Axis x{.tight = true}, y = {};
     std::optional<Axis> right = {};
     std::vector<Series> series = {};

@@ -131,7 +131,7 @@ int act(const AccuracyArguments& args) {
         sim::assess(scene.problem, request, [&](double share) { return progress.reach(100 * share); });
     progress.end();
     return write_result({[&] { return output::accuracy_json(found); }, [&] { return accuracy_text(found); },
-                         [&] { return accuracy_figure(found, scene.problem, args.files.lang); }},
+                         [&] { return accuracy_figure(found, subject_of(scene, args.files.lang)); }},
                         args.files, scene, args.common, file_list);
 }
 

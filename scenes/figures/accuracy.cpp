@@ -21,13 +21,14 @@ std::string error_label(const sim::Accuracy& a, Lang lang) { return phrase(lang,
 // A logarithmic axis has no zero: an error below that of the reference is drawn at the latter.
 double visible(double error, const sim::Accuracy& a) { return std::max(error, a.reference_error); }
 
-// The points of one method, at the median of the repeated timings.
+// The points of one method, at the median of the repeated timings; a line where more accuracy takes more time.
 void add_method(Panel& panel, const sim::Accuracy& a, sim::Method method, int look) {
     Series points{.label = sim::name(method), .look = look, .every_point = true};
     for (const sim::WorkRow& row : a.work) {
         if (row.method != method || !row.error || row.time.repeats == 0) continue;
         points.add(1e3 * row.time.median, visible(*row.error, a));
     }
+    points.line = std::ranges::is_sorted(points.x) || std::ranges::is_sorted(points.x, std::greater());
     if (!points.x.empty()) panel.series.push_back(std::move(points));
 }
 
@@ -64,7 +65,8 @@ Panel mode_counts(const sim::Accuracy& a, Lang lang) {
 
 }  // namespace
 
-Figure accuracy_figure(const sim::Accuracy& a, const sim::Problem& problem, Lang lang) {
+Figure accuracy_figure(const sim::Accuracy& a, const Subject& subject) {
+    const Lang lang = subject.lang;
     std::vector<Panel> panels{work_precision(a, lang)};
     if (panels.front().series.empty())
         throw render::PictureError("accuracy: no run ended, so there is nothing to draw");
@@ -76,7 +78,7 @@ Figure accuracy_figure(const sim::Accuracy& a, const sim::Problem& problem, Lang
                                        angle(a), number(a.until, 4)),
                   .panels = lettered(std::move(panels)),
                   .aspect = aspect};
-    add_caption(figure, std::vector{problem});
+    add_caption(figure, std::vector{subject.problem}, subject.units);
     figure.accuracy = fmt::format("The reference, {} at 10^{{−13}}, is good to about {} rad.",
                                   sim::name(a.reference_method), number(a.reference_error, 1));
     return figure;

@@ -9,6 +9,7 @@
 
 #include "render/draw/markup.hpp"
 #include "render/plot/ticks.hpp"
+#include "scenes/figures/caption.hpp"
 
 namespace beamcam::scenes {
 
@@ -38,6 +39,11 @@ std::string symbol_of(const std::string& name) {
                                                              {"t", "$t$"}};
     if (const auto found = kSymbols.find(name); found != kSymbols.end()) return found->second;
     return render::escaped(name);
+}
+
+std::string key_text(const std::string& key) {
+    const std::string symbol = symbol_of(key), words = render::escaped(words_of(key));
+    return symbol.starts_with('$') ? words + " " + symbol : words;
 }
 
 // "rad/s" becomes "rad s^{−1}", "kg m^2" "kg m^{2}".

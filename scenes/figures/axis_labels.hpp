@@ -12,6 +12,8 @@ namespace beamcam::scenes {
 // The symbol of a key of the scene or of a column of samples: "$ω$" for cam.speed; the name itself where it has no
 // symbol.
 std::string symbol_of(const std::string& name);
+// "cam speed $ω$": its words and its symbol, if it has one.
+std::string key_text(const std::string& key);
 // "$ω$ / (rad s^{−1})"; without unit the symbol alone.
 std::string axis_label(const std::string& symbol, const std::string& unit);
 // "48 rad s^{−1}", "90° s^{−1}"; without unit the number alone.

@@ -17,6 +17,7 @@ using render::figure::Figure, render::figure::Panel, render::figure::Series;
 
 constexpr std::uint32_t kSweptColor = 0x333333;
 constexpr double kWiderThanDots = 1.4;  // of branches on which the dots of a sweep lie
+constexpr double kUnstable = 0.6;       // of the width of stable branches
 constexpr double kGapInCurve = std::numeric_limits<double>::quiet_NaN();
 constexpr double kTiny = std::numeric_limits<double>::min();
 
@@ -78,9 +79,25 @@ void add_impacts(const sim::Branch& branch, const std::vector<FollowedImpact>& i
         }
 }
 
-const char* letters(sim::OrbitChange change) {
-    static constexpr const char* kLetters[] = {"SN", "PD", "NS", "BP", "G", "C", "R"};
-    return kLetters[static_cast<std::size_t>(change)];
+// The letters of each change at its mark, and its name in the caption.
+struct ChangeName {
+    const char *letters, *name;
+};
+constexpr ChangeName kChanges[] = {{"SN", "saddle-node (fold)"},
+                                   {"PD", "period doubling"},
+                                   {"NS", "Neimark–Sacker"},
+                                   {"BP", "branching"},
+                                   {"G", "grazing"},
+                                   {"C", "corner"},
+                                   {"R", "release"}};
+
+// The names of the changes that have marks.
+std::string legend_of_marks(const Panel& panel) {
+    std::string out;
+    for (const ChangeName& change : kChanges)
+        if (std::ranges::count(panel.marks, change.letters, &render::figure::Mark::label))
+            out += fmt::format("; {}: {}", change.letters, change.name);
+    return out;
 }
 
 // A change has a mark at its fastest impact, unless one of the same kind is closer than this share of the range, as
@@ -99,7 +116,7 @@ void add_special(const output::BranchTable& table, double factor, double range, 
             for (const sim::OrbitImpact& impact : point.at.orbit.impacts) fastest = std::max(fastest, impact.approach);
             panel.marks.push_back({.x = x,
                                    .y = fastest,
-                                   .label = letters(point.change),
+                                   .label = kChanges[static_cast<std::size_t>(point.change)].letters,
                                    .look = static_cast<int>(point.change),
                                    .hollow = true});
         }
@@ -110,7 +127,8 @@ struct BranchCurves {
     Series stable, unstable;
 };
 BranchCurves curves_of(const output::BranchTable& table, double factor, Lang lang) {
-    BranchCurves out{{.label = phrase(lang, "stable"), .solid = true}, {.label = phrase(lang, "unstable"), .look = 1}};
+    BranchCurves out{{.label = phrase(lang, "stable"), .solid = true},
+                     {.label = phrase(lang, "unstable"), .look = 1, .weight = kUnstable}};
     for (const sim::Branch& branch : table.branches) {
         const std::vector<FollowedImpact> impacts = followed_impacts(branch);
         add_impacts(branch, impacts, true, factor, out.stable);
@@ -147,18 +165,17 @@ Figure branches_figure(const output::BranchTable& table, const SweptImpacts& swe
     if (with_sweep) panel.clouds.push_back({phrase(lang, "sweep"), {}, swept.approach, render::rgb(kSweptColor)});
     for (const double parameter : swept.parameter) panel.clouds[0].x.push_back(shown.factor * parameter);
     add_special(table, shown.factor, shown.factor * (table.to - table.from), panel);
-    for (Series* series : {&curves.stable, &curves.unstable}) {
-        if (with_sweep) series->weight = kWiderThanDots;
+    for (Series* series : {&curves.unstable, &curves.stable}) {  // the stable ones on top
+        if (with_sweep) series->weight *= kWiderThanDots;
         if (!series->x.empty()) panel.series.push_back(std::move(*series));
     }
     if (panel.series.empty())
         throw render::PictureError("branches: no orbit with impacts was followed, so there is nothing to draw");
     Figure figure{.name = "branches",
-                  .title = fmt::format("Approach speeds of periodic orbits over {}: SN fold, PD period doubling, NS "
-                                       "Neimark–Sacker, BP branching, G grazing, C corner, R release{}",
-                                       symbol_of(table.key), with_sweep ? "; dots: impacts of a sweep" : ""),
+                  .title = fmt::format("Approach speeds of periodic orbits over {}{}{}", key_text(table.key),
+                                       legend_of_marks(panel), with_sweep ? "; dots: impacts of a sweep" : ""),
                   .panels = {std::move(panel)}};
-    add_caption(figure, problems_along(table, scene.problem));
+    add_caption(figure, problems_along(table, scene.problem), scene.units);
     figure.accuracy = "Newton's method on the section map at relative tolerance 10^{−12}.";
     return figure;
 }

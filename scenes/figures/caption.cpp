@@ -9,19 +9,32 @@
 #include "output/json/tree.hpp"
 #include "render/draw/markup.hpp"
 #include "render/plot/ticks.hpp"
+#include "scenes/figures/axis_labels.hpp"
+#include "sim/problem/number_keys.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
 constexpr std::array kPaperSpeeds{0.0, 1.0, 5.0};  // of the cam in the paper's figure 6 [rad/s]
 
-// A value in the text of a caption.
-std::string caption_value(const Node& value) {
-    if (value.kind == Node::Kind::number) return number(value.number, 6);
+struct Parameters {
+    const sim::Problem& problem;
+    const render::Units& units;
+    std::vector<std::string> differences = {};
+};
+
+// The value of a key in the text of a caption.
+std::string caption_value(const Node& value, const std::string& path, const Parameters& of) {
     if (value.kind == Node::Kind::string) return render::escaped(value.text);
+    if (value.kind == Node::Kind::number) {
+        const auto key = sim::number_key(of.problem, path);
+        const Measure shown = measure_of(key ? sim::si_unit(key->dimension) : "", std::abs(value.number), of.units);
+        return with_unit(number(shown.factor * value.number, 6), shown.unit);
+    }
     if (value.kind != Node::Kind::array) return render::escaped(one_line(value));
     std::vector<std::string> items;
-    for (const Node& item : value.items) items.push_back(caption_value(item));
+    for (const Node& item : value.items)
+        items.push_back(caption_value(item, fmt::format("{}.{}", path, items.size()), of));
     return fmt::format("[{}]", fmt::join(items, ", "));
 }
 
@@ -33,18 +46,16 @@ bool is_long(const Node& value) {
 }
 
 // "cam speed = 0", "no cam" or "own cam profile segments" of each key whose value is not that of `usual`.
-void add_differences(const Node& node, const Node* usual, const std::string& path, std::vector<std::string>& out) {
+void add_differences(const Node& node, const Node* usual, const std::string& path, Parameters& out) {
     if (node.kind == Node::Kind::object) {
         for (const Member& member : node.members)
             add_differences(member.value, usual ? child(*usual, member.key) : nullptr,
                             path.empty() ? member.key : path + "." + member.key, out);
     } else if (!usual || one_line(node) != one_line(*usual)) {
-        std::string words = path;
-        for (char& c : words)
-            if (c == '.' || c == '_') c = ' ';
-        out.push_back(node.kind == Node::Kind::null ? "no " + words
-                      : is_long(node)               ? "own " + words
-                                                    : fmt::format("{} = {}", words, caption_value(node)));
+        const std::string words = words_of(path);
+        out.differences.push_back(node.kind == Node::Kind::null ? "no " + words
+                                  : is_long(node)               ? "own " + words
+                                                  : fmt::format("{} = {}", words, caption_value(node, path, out)));
     }
 }
 
@@ -52,22 +63,25 @@ Node caption_tree(const sim::Problem& problem) {
     Scene scene;
     scene.problem = problem;
     scene.problem.contact.exponent = contact_exponent(problem);
+    if (problem.contact.offset) scene.problem.beam.depth.reset();  // it is only drawn
+    std::vector<double>& damping = scene.problem.beam.damping_ratio;
+    if (largest_magnitude(damping) == 0) damping.clear();
     return node_of(to_json(scene));
 }
 
-std::vector<std::string> differences(const sim::Problem& problem) {
+std::vector<std::string> differences(const sim::Problem& problem, const render::Units& units) {
     static const Node kUsual = caption_tree(sim::Problem{});
-    std::vector<std::string> out;
+    Parameters out{problem, units};
     add_differences(caption_tree(problem), &kUsual, "", out);
-    return out;
+    return out.differences;
 }
 
 // Equal in the digits that the paper prints.
 bool as_printed(double value, double printed) { return std::abs(value - printed) <= 1e-4 * std::abs(printed); }
 
-std::string caption_of(const std::vector<const sim::Problem*>& problems) {
-    const std::string all = parameters(problems);
-    if (!all.empty()) return fmt::format("Parameters in SI units: {}.", all);
+std::string caption_of(const std::vector<const sim::Problem*>& problems, const render::Units& units) {
+    const std::string all = parameters(problems, units);
+    if (!all.empty()) return fmt::format("Parameters: {}.", all);
     return problems.size() > 1 ? "All parameters that the motions share have their default values."
                                : "All parameters have their default values.";
 }
@@ -119,10 +133,16 @@ int decimals_of(double error) {
     return error > 0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, kMost) : kMost;
 }
 
-std::string parameters(const std::vector<const sim::Problem*>& problems) {
-    std::vector<std::string> shared = differences(*problems.front());
+std::string words_of(std::string key) {
+    for (char& c : key)
+        if (c == '.' || c == '_') c = ' ';
+    return key;
+}
+
+std::string parameters(const std::vector<const sim::Problem*>& problems, const render::Units& units) {
+    std::vector<std::string> shared = differences(*problems.front(), units);
     for (const sim::Problem* other : problems) {
-        const std::vector<std::string> theirs = differences(*other);
+        const std::vector<std::string> theirs = differences(*other, units);
         std::erase_if(shared, [&](const std::string& each) { return std::ranges::count(theirs, each) == 0; });
     }
     return fmt::format("{}", fmt::join(shared, ", "));
@@ -145,19 +165,28 @@ std::string accuracy(const Runs& runs) {
                        paper ? ", the model “paper” apart" : "");
 }
 
-void add_caption(render::figure::Figure& figure, const Runs& runs) {
+void add_caption(render::figure::Figure& figure, const Runs& runs, const render::Units& units) {
     std::vector<const sim::Problem*> problems;
     for (const auto& [problem, result] : runs) problems.push_back(problem);
-    figure.caption = caption_of(problems);
+    figure.caption = caption_of(problems, units);
     figure.accuracy = accuracy(runs);
     if (has_paler_curves(figure)) figure.accuracy += " Where curves are paler, $θ$ is not reproducible to 10^{−6} rad.";
 }
 
-void add_caption(render::figure::Figure& figure, const std::vector<sim::Problem>& problems) {
+void add_caption(render::figure::Figure& figure, const std::vector<sim::Problem>& problems,
+                 const render::Units& units) {
     std::vector<const sim::Problem*> all;
     for (const sim::Problem& problem : problems) all.push_back(&problem);
-    figure.caption = caption_of(all);
+    figure.caption = caption_of(all, units);
     figure.accuracy = "Nothing is integrated for this figure.";
+}
+
+std::string title_with_panels(const std::string& title, const std::vector<render::figure::Panel>& panels) {
+    std::vector<std::string> parts;
+    for (const render::figure::Panel& panel : panels)
+        if (!panel.letter.empty() && !panel.caption.empty())
+            parts.push_back(fmt::format("({}) {}", panel.letter, panel.caption));
+    return parts.empty() ? title : fmt::format("{}: {}", title, fmt::join(parts, "; "));
 }
 
 std::string whole_caption(const render::figure::Figure& figure) {

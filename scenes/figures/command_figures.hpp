@@ -14,7 +14,7 @@ namespace beamcam::scenes {
 
 // Error against run time of every method, and against the number of modes. Throws render::PictureError when nothing was
 // measured.
-render::figure::Figure accuracy_figure(const sim::Accuracy& accuracy, const sim::Problem& problem, Lang lang);
+render::figure::Figure accuracy_figure(const sim::Accuracy& accuracy, const Subject& subject);
 
 // Impacts of a sweep of the same key: values of the key and approach speeds [m/s].
 struct SweptImpacts {

@@ -98,8 +98,9 @@ Figure deflection_figure(const Subject& subject, const MotionResults&) {
                                 .look = curves[k].look,
                                 .solid = curves[k].printing == Printing::corrected,
                                 .color = render::rgb(0x000000)});
+    shape.caption = "static deflection across the beam", slope.caption = "slope along it";
     Figure figure{.title = fmt::format(
-                      "Static deflection across the beam (a) and slope along it (b); inclined by {}°{}, hinged at "
+                      "The beam at rest, inclined by {}°{}, hinged at "
                       "$O$, supported at the marks, $l_{{1}}$ = {}{}",
                       number(at.angle * 180 / M_PI, 4), at.tangent ? ", tangent to the centred disc" : "",
                       fmt::join(supports, ", "),
@@ -107,7 +108,7 @@ Figure deflection_figure(const Subject& subject, const MotionResults&) {
                   .panels = lettered({std::move(shape), std::move(slope)}),
                   .share_x = true,
                   .aspect = 1.15};
-    add_caption(figure, std::vector{problem});
+    add_caption(figure, std::vector{problem}, units);
     return figure;
 }
 

@@ -20,9 +20,7 @@ int fall_rows(double end) { return static_cast<int>(std::clamp(end / 2.5e-4, 4e3
 constexpr int kTrial = 5;         // points of the first round: 0.21 … 0.25 m in the paper
 constexpr int kRefined = 8;       // intervals between two trial points in the second round
 constexpr double kShown = 0.012;  // before the touch, and half as long after it [s]; less of a short fall
-constexpr const char* kDistanceTitle =
-    "Distance of points of the freely falling beam from the cam near the first touch (a), and when it is zero (b): "
-    "points of the trial in the colours of (a), their refinement, and the located touch";
+constexpr const char* kDistanceTitle = "Points of the freely falling beam near the first touch of the cam";
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 // Places on the beam at the paper's spacing of L/100, as far as the touch may be from where the rigid beam at the
@@ -151,7 +149,8 @@ Panel distance_panel(const Trial& trial) {
         for (std::size_t i = 0; i < f.t.size(); ++i)
             if (is_shown(f.t[i])) farthest = std::max(farthest, std::abs(f.distance[k][i]));
     const Measure time = measure_of("s", touch), length = measure_of("m", farthest);
-    Panel panel{.x = {.label = axis_label("$t$", time.unit), .tight = true},
+    Panel panel{.caption = "their distance $D$′ from the cam",
+                .x = {.label = axis_label("$t$", time.unit), .tight = true},
                 .y = {.label = axis_label("$D$′", length.unit)},
                 .rules = {{.at = 0}}};
     for (std::size_t k = 0; k < f.x.size(); k += kRefined) {
@@ -167,7 +166,8 @@ Panel distance_panel(const Trial& trial) {
 // When each point reaches the cam: the first round as points, the refinement beside its earliest as a line.
 Panel arrivals_panel(const Trial& trial, const sim::Result& strikes, Lang lang) {
     const Measure time = measure_of("s", trial.when[trial.first]);
-    Panel panel{.x = {.label = "$x$ / m"},
+    Panel panel{.caption = "when it is zero, with the refinement of the trial as a line",
+                .x = {.label = "$x$ / m"},
                 .y = {.label = axis_label("$t_{0}$", time.unit)},
                 .series = {{.weight = 0.6, .color = render::figure::kMuted}},
                 .legend = false};
@@ -178,11 +178,12 @@ Panel arrivals_panel(const Trial& trial, const sim::Result& strikes, Lang lang) 
         if (k % kRefined == 0)
             panel.series.push_back({.x = {x}, .y = {t}, .look = Trial::look(k), .line = false, .every_point = true});
     }
-    if (!strikes.impacts.empty())
-        panel.marks.push_back({.x = strikes.impacts.front().x,
-                               .y = strikes.impacts.front().t_start * time.factor,
-                               .label = phrase(lang, "located"),
-                               .look = 6});  // black
+    if (strikes.impacts.empty()) return panel;
+    const sim::Impact& touch = strikes.impacts.front();
+    panel.caption +=
+        fmt::format(", and the located touch at $x$ = {} m after {} s", number(touch.x, 4), grouped(touch.t_start, 6));
+    panel.marks.push_back(
+        {.x = touch.x, .y = touch.t_start * time.factor, .label = phrase(lang, "located"), .look = 6});  // black
     return panel;
 }
 
@@ -201,11 +202,7 @@ FigureDrawing prepare_distance(const Scene& scene, const FigureOutput&, MotionRe
         Figure figure{.title = kDistanceTitle,
                       .panels = lettered({distance_panel(trial), arrivals_panel(trial, strikes, lang)}),
                       .aspect = 1.25};
-        if (!strikes.impacts.empty())
-            figure.title +=
-                fmt::format(". The first touch is at $x$ = {} m after {} s", number(strikes.impacts.front().x, 4),
-                            grouped(strikes.impacts.front().t_start, 6));
-        add_caption(figure, {{&problem, &strikes}});
+        add_caption(figure, {{&problem, &strikes}}, units);
         return figure;
     };
 }

@@ -69,8 +69,8 @@ render::figure::Figure exponents_figure(const sim::Exponents& e, const Subject& 
         .stack = true,
         .share_x = true,
         .aspect = aspect};
-    add_caption(figure, std::vector{subject.problem});
-    figure.accuracy = "Errors, which are the bands, are standard errors of block averages.";
+    add_caption(figure, std::vector{subject.problem}, subject.units);
+    figure.accuracy = "The bands are $λ$ ± its error, the standard error of block averages.";
     return figure;
 }
 

@@ -53,7 +53,7 @@ FigureMaker FigureType::prepare(const Scene& scene, const FigureOutput& how, Mot
         render::figure::Figure figure = draw(subject, results);
         figure.name = called;
         if (figure.title.empty()) figure.title = usual;
-        if (!chosen.empty()) figure.title = chosen;
+        figure.title = title_with_panels(chosen.empty() ? figure.title : chosen, figure.panels);
         shorten_times(figure.panels);
         return figure;
     };
@@ -149,7 +149,7 @@ int contact_rows(double end) { return static_cast<int>(std::clamp(end / 2e-5, 4e
 FigureDrawing figure_of_motion(std::size_t motion, MotionDrawing draw) {
     return [motion, draw = std::move(draw)](const Subject& subject, const MotionResults& results) {
         Figure figure = draw(subject, *results[motion]);
-        add_caption(figure, {{&subject.problem, results[motion]}});
+        add_caption(figure, {{&subject.problem, results[motion]}}, subject.units);
         return figure;
     };
 }

@@ -131,7 +131,7 @@ FigureDrawing prepare_fall(const Scene& scene, const FigureOutput&, MotionReques
                 figure.title += fmt::format("; {}: zero after {} s", fall.label, grouped(*zero, 6));
         }
         if (falls.paper) figure.title += "; factor 2: between torque and inertia";
-        add_caption(figure, runs);
+        add_caption(figure, runs, subject.units);
         return figure;
     };
 }

@@ -44,7 +44,7 @@ std::vector<Panel> impact_maps(const Subject& subject, const sim::Result& result
     const auto& [problem, units, lang, end] = subject;
     const auto speed = [](const char* of) { return axis_label(of, "m/s"); };
     const Measure turning = measure_in(units, "rad/s");
-    Panel loss = map_panel(phrase(lang, "restitution") + "; – – $c$_{r}", speed("$v$"), "$c$"),
+    Panel loss = map_panel(phrase(lang, "restitution"), speed("$v$"), "$c$"),
           next = map_panel(phrase(lang, "next collision"), speed("$v_{k}$"), speed("$v_{k+1}$")),
           phase = map_panel(phrase(lang, "approach speed"), kPhaseLabel, speed("$v$")),
           hub = map_panel(phrase(lang, "hub speed"), kPhaseLabel, axis_label("$\\dot{θ}$", turning.unit));
@@ -56,7 +56,14 @@ std::vector<Panel> impact_maps(const Subject& subject, const sim::Result& result
     const std::vector<sim::Collision> all = strikes(problem, result.collisions, from, to);
     for (std::size_t k = 0; k + 1 < all.size(); ++k)
         next.series[0].add(std::abs(all[k].v_n_before), std::abs(all[k + 1].v_n_before));
-    loss.rules = {{.at = problem.contact.restitution}, {.at = 1, .label = phrase(lang, "no loss")}};
+    loss.rules = {{.at = 1, .label = phrase(lang, "no loss")}};
+    loss.legend = true;
+    loss.series.push_back({.label = "$c_{\\r{r}}$",
+                           .x = {0, largest_magnitude(loss.series[0].x)},
+                           .y = {problem.contact.restitution, problem.contact.restitution},
+                           .look = 1,
+                           .weight = 0.5,
+                           .color = render::rgb(0x777777)});
     if (!next.series[0].x.empty()) {
         const double fastest = std::ranges::max(next.series[0].x);
         next.series.push_back(
@@ -129,7 +136,7 @@ extern const FigureType kImpactMaps{
     .name = "impact-maps",
     .title =
         "Impacts by their approach speed $v$ and the phase $φ$ of the cam; $c$: restitution of the point of contact, "
-        "above 1 where the beam leaves faster than it came, $c$_{r}: that of the contact law, grey: "
+        "above 1 where the beam leaves faster than it came, $c_{\\r{r}}$: that of the contact law, grey: "
         "$v_{k+1}$ = $v_{k}$",
     .refusal = needs_cam,
     .maker = prepare_maps,

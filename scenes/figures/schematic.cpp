@@ -254,7 +254,7 @@ FigureDrawing prepare_schematic(const Scene&, const FigureOutput& how, MotionReq
         Figure figure{
             .title = kSymbols, .panels = {{.shapes = Drawing(subject.problem, letter).shapes()}}, .aspect = kAspect};
         if (subject.problem.cam) figure.title += kSymbolsOfCam;
-        add_caption(figure, std::vector{subject.problem});
+        add_caption(figure, std::vector{subject.problem}, subject.units);
         return figure;
     };
 }

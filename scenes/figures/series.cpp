@@ -2,6 +2,8 @@
 // several.
 #include "scenes/figures/series.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 #include <map>
@@ -27,18 +29,32 @@ void share_ordinates(Figure& figure) {
     }
 }
 
+// Names the data and the vertical lines without a text.
+std::string series_marks(const SeriesPlan& plan, const Figure& figure) {
+    std::string text;
+    for (const Measured& each : plan.measured) text += fmt::format(" Data: {}.", each.data.label);
+    const bool lines = std::ranges::any_of(figure.panels, [](const Panel& panel) {
+        return std::ranges::any_of(panel.rules, [](const auto& rule) { return rule.vertical && rule.label.empty(); });
+    });
+    if (lines && plan.keys.notes.empty())
+        text += plan.keys.impacts ? " Vertical dashed lines: the beam touches the cam."
+                                  : " Vertical dashed lines: where curves become paler, or are so no longer.";
+    return text;
+}
+
 Figure series_figure(const SeriesPlan& plan, const MotionResults& results) {
     std::vector<Panel> panels;
     for (const PlannedPanel& planned : plan.panels)
         std::ranges::move(series_panels(plan, planned, results), std::back_inserter(panels));
     Figure figure{
-        .title = series_subject(plan.keys), .panels = lettered(std::move(panels)), .stack = true, .share_x = true};
+        .title = series_title(plan.keys), .panels = lettered(std::move(panels)), .stack = true, .share_x = true};
     plan.abscissa.share(figure, plan.motions.front().problem, plan.units);
     if (plan.panels.size() > plan.keys.panels.size()) share_ordinates(figure);
     figure.aspect = 0.2 + 0.36 * static_cast<double>(figure.panels.size());
     Runs runs;
     for (const SeriesMotion& motion : plan.motions) runs.emplace_back(&motion.problem, results[motion.request]);
-    add_caption(figure, runs);
+    add_caption(figure, runs, plan.units);
+    figure.accuracy += series_marks(plan, figure);
     return figure;
 }
 

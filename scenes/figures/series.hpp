@@ -106,7 +106,8 @@ std::vector<render::figure::Rule> series_rules(const SeriesPlan& plan, const Pla
 // Whether lines mark collisions because the impacts between these instants are too many to distinguish.
 bool marks_collisions(const sim::Result& result, double from, double to);
 
-// Names the channels and the x axis, as markup.
-std::string series_subject(const SeriesKeys& keys);
+// The sums or channels of a panel, and the title of a series with its x axis, as markup.
+std::string panel_subject(const SeriesPanel& panel);
+std::string series_title(const SeriesKeys& keys);
 
 }  // namespace beamcam::scenes

@@ -42,7 +42,7 @@ struct Side {
 
 // Whether curves over the same axes differ by less than a line is wide.
 bool coincide(const Series& a, const Series& b) {
-    constexpr double kWidth = 0.005;  // of a line, in the range of the curve
+    constexpr double kWidth = 0.008;  // of a line in a column, in the range of the curve
     if (a.right != b.right || b.x.size() < 2 || !std::ranges::is_sorted(a.x) || !std::ranges::is_sorted(b.x))
         return false;
     render::Extent range;
@@ -78,6 +78,7 @@ class SeriesPanelMaker {
         if (panel_.right) add_side({planned_.right, keys_.right, true});
         const auto labelled = [](const Series& curve) { return !curve.label.empty(); };
         panel_.legend = std::ranges::count_if(panel_.series, labelled) > 1;
+        panel_.caption = caption();
         if (has_sums()) panel_.share = 1 + 0.2 * static_cast<double>(keys_.sums.size());
         for (auto& rule : series_rules(plan_, planned_, results_)) panel_.rules.push_back(std::move(rule));
         std::vector<Panel> out;
@@ -91,6 +92,14 @@ class SeriesPanelMaker {
 
   private:
     bool has_sums() const { return !keys_.sums.empty(); }
+    // The sums that are drawn or the channels, and the motion; of one panel for each motion that alone.
+    std::string caption() const {
+        if (shows_some() && plan_.keys.panels.size() == 1) return first_.label;
+        SeriesPanel drawn = keys_;
+        std::erase_if(drawn.sums, [&](const SeriesSum& sum) { return !std::ranges::count(sums_, sum.label); });
+        return (is_closure() ? "largest " : "") + panel_subject(drawn) + (is_closure() ? " so far" : "") +
+               (shows_some() ? ", " + first_.label : "");
+    }
     bool shows_some() const { return planned_.motions.size() < plan_.motions.size(); }  // not all motions
     // A logarithmic axis shows the largest change of the energy balance so far.
     bool is_closure() const {
@@ -186,6 +195,7 @@ class SeriesPanelMaker {
         const SeriesSum& sum = *side.curves[i].sum;
         const std::vector<double>& values = side.rows[i].values.back();
         if (sum.plus.size() > 1 && is_zero(side.rows[i])) return;
+        sums_.push_back(sum.label);
         constexpr int kBlack = 6;
         const bool total = !sum.minus.empty();
         Series curve{.label = phrase(plan_.lang, sum.label),
@@ -294,8 +304,10 @@ class SeriesPanelMaker {
         for (const Series& each : differences_.series) most = std::max(most, largest_magnitude(each.y));
         const Measure measure = measure_of(unit(channel, plan_.motions.front().problem), most, plan_.units);
         const std::string symbol = "Δ" + render::print_symbol(channel);
+        differences_.caption = symbol + ":";
         for (Series& each : differences_.series) {
             each.y = scaled(std::move(each.y), measure.factor);
+            if (!each.label.empty()) differences_.caption += fmt::format(" {} − simulation", each.label);
             each.name = fmt::format("{}, {}", symbol, std::exchange(each.label, {}));
         }
         differences_.y.label = axis_label(symbol, measure.unit);
@@ -312,9 +324,10 @@ class SeriesPanelMaker {
     const SeriesMotion& first_;  // of the motions shown
 
     Panel panel_, differences_;
-    std::vector<Series> whole_;  // the curves of channels, not divided by their reliability
-    bool is_rounding_ = false;   // it would show rounding alone
-    int curves_ = 0;             // looks so far, on both axes and of data
+    std::vector<Series> whole_;      // the curves of channels, not divided by their reliability
+    std::vector<std::string> sums_;  // the labels of those drawn
+    bool is_rounding_ = false;       // it would show rounding alone
+    int curves_ = 0;                 // looks so far, on both axes and of data
 };
 
 }  // namespace

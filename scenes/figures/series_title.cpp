@@ -18,16 +18,18 @@ std::string channel_text(const sim::Channel& channel) {
 
 }  // namespace
 
-std::string series_subject(const SeriesKeys& keys) {
+std::string panel_subject(const SeriesPanel& panel) {
     std::vector<std::string> words;
-    for (const SeriesPanel& panel : keys.panels) {
-        for (const SeriesSum& sum : panel.sums) words.push_back(sum.label);
-        for (const auto* side : {&panel.channels, &panel.right}) {
-            if (side == &panel.channels && !panel.sums.empty()) continue;
-            for (const sim::Channel& channel : *side) words.push_back(channel_text(channel));
-        }
+    for (const SeriesSum& sum : panel.sums) words.push_back(sum.label);
+    for (const auto* side : {&panel.channels, &panel.right}) {
+        if (side == &panel.channels && !panel.sums.empty()) continue;
+        for (const sim::Channel& channel : *side) words.push_back(channel_text(channel));
     }
-    std::string all = fmt::format("{}", fmt::join(words, ", "));
+    return fmt::format("{}", fmt::join(words, ", "));
+}
+
+std::string series_title(const SeriesKeys& keys) {
+    std::string all = keys.panels.size() == 1 ? panel_subject(keys.panels.front()) : "motion";
     all.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(all.front())));
     if (keys.against == "phase") return all + " against the phase of the cam";
     const auto against = sim::channel_named(keys.against);

@@ -146,7 +146,7 @@ FigureDrawing prepare_spectrogram(const Scene& scene, const FigureOutput& how, M
             Panel panel = spectrogram_panel(channel, s, most, measure_of(unit, most, subject.units));
             panel.x.from = from, panel.x.to = to;
             return {.title = fmt::format("{}: amplitude by frequency and time, Hann windows of {} s",
-                                         series_subject({.panels = {{.channels = {channel}}}}), number(s.window, 3)),
+                                         series_title({.panels = {{.channels = {channel}}}}), number(s.window, 3)),
                     .panels = {std::move(panel)}};
         });
 }

@@ -51,34 +51,35 @@ void add_beam(const sim::Pose& pose, render::Color color, Sketch& to, render::Bo
     to.add({.kind = Sketch::Kind::line, .points = pose.centreline, .color = color, .width = 1.6});
 }
 
-// Where the tip moves at the last instant.
-void add_way(const std::vector<sim::Pose>& poses, Sketch& to, render::Bounds& extent) {
+// The speed of the tip at the last instant as a share of the largest shown, unless the beam rests.
+void add_speed(const std::vector<sim::Pose>& poses, Sketch& to, render::Bounds& extent) {
+    constexpr double kLongest = 0.15, kRest = 0.05;  // in lengths of the beam; of the largest speed
+    double fastest = 0;
+    for (const sim::Pose& pose : poses) fastest = std::max(fastest, std::abs(pose.theta_dot));
     const sim::Pose& last = poses.back();
-    const double turned = last.theta - poses[poses.size() - 2].theta;
-    if (turned == 0) return;
+    if (std::abs(last.theta_dot) <= kRest * fastest) return;
     const Vec2 tip = last.centreline.back(),
-               way = std::copysign(0.1 * norm(tip), turned) * sim::perp(sim::unit(last.theta));
+               way = kLongest * norm(tip) * last.theta_dot / fastest * sim::perp(sim::unit(last.theta));
     to.arrow(tip, tip + way, Sketch::kInk, 0.9);
     extent.add(tip + way);
 }
 
-// Beyond the tip, where no other beam is drawn.
-void add_instant(const sim::Pose& pose, const std::string& instant, Sketch& to) {
-    const Vec2 along = sim::unit(pose.theta);
-    const double half = 0.28 * static_cast<double>(instant.size());  // of its width
-    to.label(pose.centreline.back(), instant.c_str(), {(0.5 + half) * along.x, 0.9 * along.y});
+// Beyond the tip, where no other beam is drawn, and to one `side` of it.
+void add_instant(const sim::Pose& pose, int decimals, double side, Sketch& to) {
+    const Vec2 tip = pose.centreline.back(), along = sim::unit(pose.theta);
+    to.add({.kind = Sketch::Kind::label,
+            .points = {tip + 0.03 * norm(tip) * along + 0.035 * side * norm(tip) * sim::perp(along)},
+            .markup = render::fixed(pose.t, decimals) + " s",
+            .align = along.x < 0 ? render::HAlign::right : render::HAlign::left});
 }
 
-// The last one, and the first if it stands clear.
+// The first and the last one, away from each other.
 void label_instants(const std::vector<sim::Pose>& poses, Sketch& to) {
-    constexpr double kWidth = 0.25, kHeight = 0.07;  // of the largest label, in lengths of the beam
     const sim::Pose &first = poses.front(), &last = poses.back();
-    const double length = norm(first.centreline.back());
-    const Vec2 way = last.centreline.back() - first.centreline.back();
     const int decimals = render::decimals_of(poses[1].t - first.t) + 1;
-    add_instant(last, render::fixed(last.t, decimals) + " s", to);
-    if (std::abs(way.x) >= kWidth * length || std::abs(way.y) >= kHeight * length)
-        add_instant(first, render::fixed(first.t, decimals) + " s", to);
+    const double side = first.theta < last.theta ? -1 : 1;
+    add_instant(last, decimals, -side, to);
+    add_instant(first, decimals, side, to);
 }
 
 // Below the drawing, the direction of gravity, a length of 1, 2 or 5 times a power of ten, about a fifth of the beam's,
@@ -116,7 +117,7 @@ Panel strobe_panel(const std::vector<sim::Pose>& poses, const Subject& subject, 
     }
     extent.add({0, 0}, hub);
     if (problem.cam && problem.cam->speed != 0) add_rotation(problem.cam->centre, problem, sketch, extent);
-    add_way(poses, sketch, extent);
+    add_speed(poses, sketch, extent);
     sketch.disc({0, 0}, hub, Sketch::kSteel, 0.8);
     sketch.dot({0, 0}, Sketch::kInk, 1.2);
     if (problem.cam) sketch.dot(problem.cam->centre);
@@ -145,7 +146,8 @@ extern const FigureType kStrobe{
     .name = "strobe",
     .title =
         "The beam at equally spaced instants, from pale to dark, and the cam at both ends; deflection to "
-        "scale; the arrow at the tip is its last movement",
+        "scale; the arrow at the tip is its speed at the last "
+        "instant, by the largest shown",
     .refusal = no_refusal,
     .maker = prepare_strobe,
     .keys = {"from", "to"},

@@ -77,9 +77,9 @@ Figure svaj_figure(const Subject& subject, const sim::Result* result, std::size_
     if (result) add_beam(problem, result->tables[table], angle.factor, lang, panels[0], panels[1]);
     Figure figure{.panels = lettered(std::move(panels)), .stack = true, .share_x = true, .aspect = 1.7};
     if (result)
-        add_caption(figure, {{&problem, result}});
+        add_caption(figure, {{&problem, result}}, units);
     else
-        add_caption(figure, std::vector{problem});
+        add_caption(figure, std::vector{problem}, units);
     return figure;
 }
 

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <map>
 #include <stdexcept>
 
 #include "render/base/error.hpp"
-#include "render/draw/markup.hpp"
+#include "render/plot/ticks.hpp"
 #include "scenes/figures/axis_labels.hpp"
 #include "scenes/figures/figure_types.hpp"
 #include "scenes/figures/swept_points.hpp"
@@ -40,6 +40,28 @@ std::vector<sim::Problem> problems_at_ends(const SweptPoints& points) {
         for (const RandomKey& each : random_keys(*points.scene.sweep, points.scene.problem))
             add(each.key, each.from), add(each.key, each.to);
     return out;
+}
+
+// "every impact in 60 cam turns after a transient of 500 cam turns"
+std::string sampling_text(const sim::Sampling& sampling) {
+    static const std::map<sim::SampleKind, const char*> kWhat{{sim::SampleKind::impacts, "every impact"},
+                                                              {sim::SampleKind::section, "one sample a turn"},
+                                                              {sim::SampleKind::apexes, "every maximum of $θ$"},
+                                                              {sim::SampleKind::crossings, "every crossing"},
+                                                              {sim::SampleKind::peaks, "largest values"}};
+    const auto text = [](const sim::CamSpan& span) {
+        return span.time ? render::quantity(*span.time, "s") : fmt::format("{:g} cam turns", span.turns);
+    };
+    return fmt::format("{} in {} after a transient of {}", kWhat.at(sampling.kind), text(sampling.keep),
+                       text(sampling.transient));
+}
+
+// "; classes: periodic, chaotic" of those in a legend.
+std::string classes_text(const figure::Figure& of) {
+    std::vector<std::string> names;
+    for (const figure::Panel& panel : of.panels)
+        for (const figure::Swatch& each : panel.swatches) names.push_back(each.label);
+    return names.empty() ? "" : fmt::format("; classes: {}", fmt::join(names, ", "));
 }
 
 std::string tolerance_text(const SweptPoints& points) {
@@ -105,30 +127,24 @@ figure::Figure sample_plane(const SweptPoints& points, const std::string& x, con
     return {.panels = {std::move(panel)}, .aspect = 0.9};
 }
 
-// A column of peaks over the key, a curve for each start; random starts are points.
+// A column of peaks over the key: points, a look for each start but random ones.
 figure::Figure draw_peaks(const SweptPoints& points, const FigureOutput& how) {
     const std::size_t column = points.column(how.value.empty() ? "force_peak" : how.value);
     const output::TableColumn& info = points.data.columns[column];
     const bool random = points.seed(0) == SeedKind::random;
     std::vector<figure::Series> curves(random ? 1 : points.seeds());
     for (std::size_t i = 0; i < curves.size(); ++i) {
-        curves[i] = {.look = static_cast<int>(i), .line = !random, .every_point = true};
+        curves[i] = {.look = static_cast<int>(i), .line = false, .every_point = true};
         if (curves.size() > 1) curves[i].label = phrase(points.lang, look_of(points.seed(i)).label);
     }
-    const std::vector<double>& values = points.axis(0).values;
-    std::vector<std::size_t> order(values.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return values[i]; });
     double largest = 0;
-    for (const std::size_t at : order)
-        for (std::uint64_t seed = 0; seed < points.seeds(); ++seed) {
-            const std::uint64_t k = at * points.seeds() + seed;
-            if (!points.data.has(k)) continue;
-            const output::StoredPoint p = points.data.read(k);
-            const double value = p.samples.empty() ? sim::kNan : p.samples[column];
-            curves[random ? 0 : seed].add(points.value(k), value);
-            if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
-        }
+    for (std::uint64_t k = 0; k < points.data.points(); ++k) {
+        if (!points.data.has(k)) continue;
+        const output::StoredPoint p = points.data.read(k);
+        const double value = p.samples.empty() ? sim::kNan : p.samples[column];
+        curves[random ? 0 : k % points.seeds()].add(points.value(k), value);
+        if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+    }
     const Measure measure = measure_of(info.unit, largest);
     for (figure::Series& curve : curves)
         for (double& value : curve.y) value *= measure.factor;
@@ -204,9 +220,10 @@ FigureDrawing swept_figure(const FigureType& type, const FigureOutput& how) {
         const SweptPoints points(*results.sweep, how.lang);
         figure::Figure out = type.draw(points, how);
         std::vector<std::string> keys;
-        for (const output::SweepAxis& axis : points.axes()) keys.push_back(render::escaped(axis.name));
-        out.title = fmt::format("{} over {}", type.title, fmt::join(keys, " and "));
-        add_caption(out, problems_at_ends(points));
+        for (const output::SweepAxis& axis : points.axes()) keys.push_back(key_text(axis.name));
+        out.title = fmt::format("{} over {}: {}{}", type.title, fmt::join(keys, " and "),
+                                sampling_text(points.scene.sweep->sampling), classes_text(out));
+        add_caption(out, problems_at_ends(points), points.scene.units);
         out.accuracy = tolerance_text(points);
         return out;
     };

@@ -22,7 +22,7 @@ std::string caption_of(const std::string& text, const char* name, Lang lang = La
 
 TEST(Captions, AreTitleParametersAndAccuracy) {
     EXPECT_THAT(caption_of(R"({"beam": {"modes": 3}, "cam": {"speed": "-30 rpm"}})", "schematic"),
-                HasSubstr("; ω: speed. Parameters in SI units: beam modes = 3, cam speed = −3.14159. Nothing is "
+                HasSubstr("; ω: speed. Parameters: beam modes = 3, cam speed = −30 rpm. Nothing is "
                           "integrated for this figure."));
     EXPECT_THAT(caption_of("{}", "schematic"), HasSubstr("All parameters have their default values."));
     EXPECT_THAT(
@@ -33,7 +33,7 @@ TEST(Captions, AreTitleParametersAndAccuracy) {
 
 TEST(Captions, NameParametersByTheWordsOfTheirKeys) {
     EXPECT_THAT(caption_of(R"({"hub": {"drive": {"type": "torque", "value": "1.5 N m"}}})", "schematic"),
-                HasSubstr("hub drive type = torque, hub drive value = 1.5"));
+                HasSubstr("hub drive type = torque, hub drive value = 1.5 N m"));
     EXPECT_THAT(caption_of(R"({"cam": null})", "schematic"), HasSubstr("no cam"));
     EXPECT_THAT(caption_of(R"({"hub": {"drive": {"type": "torque", "t": [0, 1, 2, 3, 4, 5],
                                "torque": [0, 1, 2, 3, 4, 5]}}})",
@@ -42,9 +42,24 @@ TEST(Captions, NameParametersByTheWordsOfTheirKeys) {
 }
 
 // The speed of the cam is not that of all three.
+// The depth is only drawn, and no damping is the default.
+TEST(Captions, OmitParametersWithoutEffect) {
+    EXPECT_THAT(caption_of(R"({"beam": {"depth": 0.04, "damping_ratio": 0}})", "schematic"),
+                HasSubstr("All parameters have their default values."));
+}
+
+TEST(Captions, NameThePanelsThatAreDrawn) {
+    constexpr const char* kRigid = R"({"beam": {"model": "rigid"}, "contact": {"model": "restitution"},
+                                       "time": {"end": 0.4}})";
+    const std::string caption = caption_of(kRigid, "energy");
+    EXPECT_THAT(caption, HasSubstr("Energies: (a) kinetic, potential"));
+    EXPECT_THAT(caption, Not(HasSubstr("bending")));
+    EXPECT_THAT(caption, Not(HasSubstr("(c)")));
+}
+
 TEST(Captions, StateWhatAllMotionsHave) {
     const std::string caption = caption_of(R"({"beam": {"modes": 3}, "time": {"end": 0.4}})", "speeds");
-    EXPECT_THAT(caption, HasSubstr("Parameters in SI units: beam modes = 3."));
+    EXPECT_THAT(caption, HasSubstr("Parameters: beam modes = 3."));
     EXPECT_THAT(caption, HasSubstr("the energy balance of each motion closes to"));
     EXPECT_THAT(caption, Not(HasSubstr("cam speed")));
 }
@@ -63,7 +78,7 @@ TEST(Captions, AreWrittenAsText) {
     folder.write("s.json", R"({"gravity": 1.62, "time": {"end": 0.3}})");
     ASSERT_EQ(shell(folder, "$BEAMCAM figure s.json angle -o a.svg --caption a.txt -q").code, 0);
     EXPECT_THAT(testing::slurp(folder / "a.txt"),
-                ::testing::StartsWith("Hub angle. Parameters in SI units: gravity = 1.62. Relative tolerance"));
+                ::testing::StartsWith("Hub angle. Parameters: gravity = 1.62 m s⁻². Relative tolerance"));
     EXPECT_EQ(shell(folder, "$BEAMCAM figure s.json angle -o a.svg --caption a.tex -q").code, 2);
 }
 

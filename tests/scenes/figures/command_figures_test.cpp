@@ -65,7 +65,7 @@ sim::Accuracy measured() {
 }
 
 TEST(AccuracyFigure, HasAPointForEachRunAndNoneForThoseLeftOut) {
-    const render::figure::Figure figure = accuracy_figure(measured(), sim::Problem{}, Lang::en);
+    const render::figure::Figure figure = accuracy_figure(measured(), {});
     ASSERT_EQ(figure.panels.size(), 2u);
     const auto& work = figure.panels[0].series;
     ASSERT_EQ(work.size(), 2u);
@@ -76,7 +76,7 @@ TEST(AccuracyFigure, HasAPointForEachRunAndNoneForThoseLeftOut) {
     EXPECT_EQ(work[1].x.size(), 6u);
     EXPECT_THAT(figure.panels[1].series[0].x, ::testing::ElementsAre(2, 4));  // 8 is what they are compared with
     EXPECT_THAT(figure.panels[1].series[1].x, ::testing::ElementsAre(2, 4, 8));
-    EXPECT_THROW(accuracy_figure({}, sim::Problem{}, Lang::en), render::PictureError);
+    EXPECT_THROW(accuracy_figure({}, {}), render::PictureError);
 }
 
 TEST(AccuracyFigure, IsWrittenInEveryFormatWithItsScene) {

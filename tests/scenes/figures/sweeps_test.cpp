@@ -97,9 +97,10 @@ TEST(Diagram, OfPeaksIsACurveForEachStartInPrefixedUnits) {
     ASSERT_THAT(figure.panels, SizeIs(1));
     EXPECT_THAT(figure.panels[0].y.label, HasSubstr("MPa"));
     ASSERT_THAT(figure.panels[0].series, SizeIs(2));
-    EXPECT_EQ(figure.panels[0].series[0].x, (std::vector<double>{1, 2, 3}));
-    EXPECT_EQ(figure.panels[0].series[0].y, (std::vector<double>{3, 5, 1}));
-    EXPECT_EQ(figure.panels[0].series[1].y, (std::vector<double>{4, 6, 2}));
+    EXPECT_EQ(figure.panels[0].series[0].x, (std::vector<double>{3, 1, 2}));
+    EXPECT_EQ(figure.panels[0].series[0].y, (std::vector<double>{1, 3, 5}));
+    EXPECT_EQ(figure.panels[0].series[1].y, (std::vector<double>{2, 4, 6}));
+    EXPECT_FALSE(figure.panels[0].series[0].line);  // the motions are independent
     EXPECT_EQ(diagram("peaks", speeds, peaks, "").panels[0].name, "force_peak");
 }
 
@@ -109,7 +110,8 @@ TEST(Diagram, LeavesOutOfItsCaptionWhatTheSweepVaries) {
         R"({"over": [{"key": "cam.eccentricity", "values": [1e-3, 3e-3]}, {"key": "gravity", "values": [9.81]}],
             "sample": "apexes", "seed": {"random": 5}})");
     const auto figure = diagram("map", swept, data(swept, {periodic}), "class");
-    EXPECT_EQ(figure.title, "Map of motions over cam.eccentricity and gravity");
+    EXPECT_THAT(figure.title,
+                HasSubstr("Map of motions over cam eccentricity $e$ and gravity $g$: every maximum of $θ$ in "));
     for (const char* key : {"eccentricity", "initial."}) EXPECT_THAT(figure.caption, Not(HasSubstr(key)));
 }
 
@@ -440,7 +442,11 @@ TEST(Diagram, IsAFileWithItsCaption) {
     }
     EXPECT_THAT(
         testing::slurp(folder / "c.txt"),
-        HasSubstr("Bifurcation diagram over cam.speed. Parameters in SI units: beam model = rigid, contact model = "));
+        ::testing::AllOf(
+            HasSubstr(
+                "Bifurcation diagram over cam speed ω: every impact in 12 cam turns after a transient of 30 cam turns; "
+                "classes: "),
+            HasSubstr("Parameters: beam model = rigid, contact model = ")));
 }
 
 TEST(Diagram, AndTheSamplesAreOutputsOfAScene) {

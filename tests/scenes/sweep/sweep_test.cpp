@@ -221,7 +221,8 @@ TEST(SweepCommand, DrawsInTheUnitOfItsOption) {
                                 "$BEAMCAM sweep s.json -q --transient 5 --keep 1 --over 'cam.speed=420 rpm:430rpm:2' "
                                 "--diagram d.svg --caption d.txt -o d.csv");
     EXPECT_EQ(done.code, 0) << done.err;
-    EXPECT_THAT(slurp(folder / "d.txt"), ::testing::StartsWith("Bifurcation diagram over cam.speed. "));
+    EXPECT_THAT(slurp(folder / "d.txt"),
+                ::testing::StartsWith("Bifurcation diagram over cam speed ω: every impact in "));
     const SweepGrid one(*testing::read(kSweptScene).scene);
     Scene other = one.scene();
     other.units.speed = render::SpeedUnit::rpm;
