@@ -34,7 +34,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 EQUATION = re.compile(r"\(S\d+[a-z]?\)")
 TEST = re.compile(r"^TEST(?:_F|_P)?\((\w+),\s*(\w+)\)", re.MULTILINE)
 FOLDER = re.compile(r"`(\w+)/(\w+)`")
-PHRASE = re.compile(r'\bphrase\(\s*[\w.>-]+,\s*"((?:[^"\\]|\\.)*)"')
+PHRASE = re.compile(r'\b(?:phrase\(\s*[\w.>-]+,|translate\()\s*"((?:[^"\\]|\\.)*)"')
 TRANSLATION = re.compile(r'\{"((?:[^"\\]|\\.)*)",\s*"')
 NAMED_TEST = re.compile(r"`(\w+\.[A-Z]\w*[a-z]\w*)`")
 

@@ -35,16 +35,6 @@ Box whole_part(const Image& source, const Box& part) {
     return {x0, y0, x1 - x0, y1 - y0};
 }
 
-// No channel of a pixel above its alpha: a file stores colours divided by it, which would overflow.
-Image within_alpha(Image image) {
-    for (std::uint32_t& p : image.pixels) {
-        const std::uint32_t alpha = p >> 24;
-        const auto channel = [&](int shift) { return std::min(p >> shift & 255U, alpha) << shift; };
-        p = alpha << 24 | channel(16) | channel(8) | channel(0);
-    }
-    return image;
-}
-
 }  // namespace
 
 Canvas::Canvas(Image& image, const Fonts& fonts) : Painter(fonts), width_(image.width), height_(image.height) {
@@ -94,8 +84,6 @@ void Canvas::image_part(const Image& source, int x, int y, const Box& part) {
     set_source({});
     if (!there.empty()) mark_painted(there);
 }
-
-void Canvas::image(const Image& source, const Box& into) { pixels(within_alpha(source), into); }
 
 void Canvas::image_tiles(const Image& source, int x, int y, const DirtyTiles& tiles) {
     std::vector<Box> runs;

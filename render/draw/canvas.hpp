@@ -36,8 +36,6 @@ class Canvas : public Painter {
 
     // Blends a part of `source` [px of the source, rounded outwards], whose top left pixel goes to (x, y).
     void image_part(const Image& source, int x, int y, const Box& part);
-    // Blends all of `source`, scaled into the box: of vector graphics.
-    void image(const Image& source, const Box& into);
     // Blends `source` within these tiles of the picture.
     void image_tiles(const Image& source, int x, int y, const DirtyTiles& tiles);
 

@@ -116,9 +116,7 @@ LetterFace face_of(const SetRun& set, const TextStyle& style, Typefaces typeface
     const double room = set.x > 0 ? std::max(set.size, style.max_width - set.x) : style.max_width;
     return {.family = symbol ? t.symbols : t.family,
             .size = symbol ? t.symbol_size * set.size : set.size,
-            .weight = set.run.bold                ? Weight::bold
-                      : symbol && t.light_symbols ? Weight::regular
-                                                  : style.weight,
+            .weight = symbol && t.light_symbols ? Weight::regular : style.weight,
             .italic = symbol,
             .max_width = style.max_width > 0 && !symbol ? room : 0};
 }

@@ -53,8 +53,7 @@ class Parser {
     }
 
     static bool is_alike(const Run& a, const Run& b) {
-        return std::tie(a.symbol, a.bold, a.script, a.dots, a.color) ==
-               std::tie(b.symbol, b.bold, b.script, b.dots, b.color);
+        return std::tie(a.symbol, a.script, a.dots, a.color) == std::tie(b.symbol, b.script, b.dots, b.color);
     }
 
     // Parses until the end, or the closing brace of a group.
@@ -90,13 +89,23 @@ class Parser {
         return is_letter(last) || is_digit(last) || last == ")";
     }
 
-    // A fraction is a/b in one line.
+    // A fraction is a/b in one line, in parentheses before a script.
     void fraction(const Run& style) {
-        if (std::exchange(after_fraction_, false) || is_after_factor(style.script)) put("·", {.text = {}, .script = style.script});
+        if (std::exchange(after_fraction_, false) || is_after_factor(style.script))
+            put("·", {.text = {}, .script = style.script});
+        std::vector<Run> before = std::exchange(runs_, {});
         factor(style);
         put("/", style);
         factor(style);
-        after_fraction_ = true;
+        const std::vector<Run> inside = std::exchange(runs_, std::move(before));
+        after_fraction_ = at_ >= text_.size() || (text_[at_] != '^' && text_[at_] != '_');
+        add(inside, !after_fraction_, style);
+    }
+
+    void add(const std::vector<Run>& inside, bool in_parentheses, const Run& style) {
+        if (in_parentheses) put("(", style);
+        runs_.insert(runs_.end(), inside.begin(), inside.end());
+        if (in_parentheses) put(")", style);
     }
 
     // Puts a part of a fraction, or what is under a root: in parentheses unless it is one symbol with its scripts, or
@@ -105,7 +114,7 @@ class Parser {
         if (++depth_ > kDeepest) fail("fractions and roots can be nested at most six deep");
         std::vector<Run> before = std::exchange(runs_, {});
         group(style);
-        std::vector<Run> inside = std::exchange(runs_, std::move(before));
+        const std::vector<Run> inside = std::exchange(runs_, std::move(before));
         --depth_;
         after_fraction_ = false;
         int symbols = 0;
@@ -117,10 +126,7 @@ class Parser {
                 simple = simple && (digit || is_letter(c));
                 symbols += run.script == style.script;
             });
-        const bool alone = simple && (number || symbols <= 1);
-        if (!alone) put("(", style);
-        runs_.insert(runs_.end(), inside.begin(), inside.end());
-        if (!alone) put(")", style);
+        add(inside, !(simple && (number || symbols <= 1)), style);
     }
 
     // Parses a LaTeX command after its backslash; false if there is none.
@@ -215,9 +221,6 @@ class Parser {
             sequence(changed, true);
         } else if (take("\\r{")) {
             upright([&] { sequence(changed, true); });
-        } else if (take("\\b{")) {
-            changed.bold = true;
-            sequence(changed, true);
         } else if (!math_ && take("\\color{#")) {
             changed.color = color();
             sequence(changed, true);

@@ -4,7 +4,7 @@
 //   $x_{c}$, m s^{−1}  sub- and superscripts, in braces or a single character; braces needed outside dollars
 //   $\dot{θ}$          a dot above, \ddot two
 //   $\frac{a}{b}$      a/b, \sqrt{a} √a; $\omega$ and other LaTeX names of Greek letters and signs
-//   \r{…} \b{…}        upright; bold
+//   \r{…}               upright
 //   \color{#0072b2}{…}  in this colour; outside dollars
 //   \$ \\ \_ \^        are literal characters.
 //
@@ -21,8 +21,7 @@ namespace beamcam::render {
 
 struct Run {
     std::string text;
-    bool symbol = false;  // italic
-    bool bold = false;
+    bool symbol = false;                      // italic
     int script = 0;                           // −1 below, +1 above
     int dots = 0;                             // above the run
     std::optional<std::uint32_t> color = {};  // 0xrrggbb; none: that of the text

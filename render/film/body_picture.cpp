@@ -55,16 +55,14 @@ void BodyPicture::draw(const MechanismScene& s) {
     view.centre = view.centre - Vec2{box.x, box.y};
     if (Drawn now{s.shape, view}; !(drawn_ == now)) {
         const Ground ground = !s.view ? Ground::wall : at.over_floor ? Ground::floor : Ground::none;
-        const double before = renderer_->read_back;
         const Stage stage{box, at.box.centre(), ground, at.wide, at.marks * at.zoom()};
         const BodyScene scene = scaled(body_scene(s.shape, at.palette, stage, view), fine, box);
         drawn_.reset();
         renderer_->draw(scene, image_);
         drawn_ = std::move(now), seen_ = scene.seen;
-        counts.read_back += renderer_->read_back - before;
         ++counts.bodies_drawn;
     }
-    if (s.canvas.is_vector()) return s.canvas.image(image_, box);
+    if (s.canvas.is_vector()) return s.canvas.pixels(image_, box);
     DirtyTiles where(s.canvas.width(), s.canvas.height());
     seen_.for_each_run([&](double left, double top, double right, double bottom) {
         where.add({box.x + left, box.y + top, right - left - 1, bottom - top - 1});

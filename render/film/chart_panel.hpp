@@ -21,7 +21,7 @@ class ChartPanel : public FilmPanel {
           chart_(std::move(content), box, plot_area(box, context.look.unit, context.look.letters.words),
                  chart_style(context), *context.fonts) {}
     void draw_background(Canvas& canvas) const override { chart_.draw_background(canvas); }
-    void draw(Canvas& canvas, int frame, Style, State*) const override {
+    void draw(Canvas& canvas, int frame, Style, BodyPicture&) const override {
         chart_.draw_moving(canvas, context_.clock.at(frame), readings(frame), peaks(frame));
     }
 

@@ -24,11 +24,11 @@ ClockLine::ClockLine(const FilmContext& context) : context_(context) {
     if (!context.places.clock) return;
     if (setup.view.show.legend && context.scales.exaggeration > 1 && mechanism)
         pills_.push_back({Pill::Kind::exaggeration,
-                          context.look.translate("deflection ×" + power_text(context.scales.exaggeration)),
+                          context.look.translate("deflection ×{}", power_text(context.scales.exaggeration)),
                           context.look.palette.motion});
     if (setup.view.show.legend && !setup.speeds.empty())
         pills_.push_back(
-            {Pill::Kind::speed, context.look.translate(widest_speed_text(setup.speeds)), context.look.palette.contact});
+            {Pill::Kind::speed, widest_speed_text(setup.speeds, context.look.lang), context.look.palette.contact});
     const bool in_chart =
         std::ranges::any_of(context.places.panels, [](const auto& slot) { return shows_peaks(slot.spec); });
     for (int m = 0; m < context.members() && mechanism && !in_chart && setup.view.show.labels; ++m)
@@ -89,8 +89,7 @@ std::string ClockLine::words(const Pill& pill, int frame) const {
         case Pill::Kind::exaggeration:
             return pill.widest;
         case Pill::Kind::speed:
-            return context_.look.translate(
-                speed_text(context_.setup->speeds[static_cast<std::size_t>(frame)], steady_));
+            return speed_text(context_.setup->speeds[static_cast<std::size_t>(frame)], steady_, context_.look.lang);
         case Pill::Kind::peak:
             break;
     }

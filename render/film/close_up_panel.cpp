@@ -1,15 +1,10 @@
 // The contact close-up, in the frame of its tangent (to the right) and normal (up): the undeformed faces of beam and
-// cam, not exaggerated, heights in micrometres against widths in millimetres. Their overlap is the penetration of the
-// contact law.
-#include <fmt/format.h>
-
+// cam, not exaggerated, in a plot of heights against widths. Their overlap is the penetration of the contact law.
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "render/film/chart_panel.hpp"
 #include "render/film/close_up_readings.hpp"
-#include "render/film/panel.hpp"
-#include "render/plot/ticks.hpp"
 #include "sim/cam/cam_shape.hpp"
 
 namespace beamcam::render {
@@ -20,107 +15,68 @@ constexpr double kBelow = 1.35, kAbove = 1.9;  // displayed heights, relative to
 class CloseUpPanel final : public FilmPanel {
   public:
     CloseUpPanel(const FilmContext& context, const PanelSlot& slot)
-        : context_(context), member_(std::min(slot.spec.member, context.members() - 1)), box_(slot.box) {
-        const double u = context.look.unit;
-        const double left = 70 * u + 2.4 * (context.look.letters.words - 17 * u);  // as in plot_area
-        plot_ = {std::round(box_.x + left), std::round(box_.y + 46 * u), std::round(box_.w - left - 8 * u),
-                 std::round(box_.h - 46 * u - 40 * u)};
+        : context_(context),
+          member_(std::min(slot.spec.member, context.members() - 1)),
+          box_(slot.box),
+          area_(plot_area(slot.box, context.look.unit, context.look.letters.words)),
+          style_(chart_style(context)),
+          plot_(axes_, style_, "close-up") {
         for (const sim::Impact& i : motion().impacts) depth_ = std::max(depth_, i.penetration_peak);
-        for (int k = 0; k < context.frames(); ++k)
-            if (const auto near = context.pose(member_, k).nearest) depth_ = std::max(depth_, -near->gap);
+        for (std::size_t k = 0; k < motion().surveyed(); ++k)
+            if (const auto& near = motion().surveyed(k).nearest) depth_ = std::max(depth_, -near->gap);
         if (!motion().problem.cam) return;
         const double radius = sim::cam_shape(motion().problem)->largest_radius();
         // An impulsive contact does not penetrate: its scale is a ten-thousandth of the radius.
         if (!(depth_ > 1e-9 * radius)) depth_ = 1e-4 * radius;
         // The rim of the cam reaches the lower edge at the sides.
         half_width_ = std::min(std::sqrt(2 * radius * 1.2 * depth_), 0.9 * radius);
-        shown_ = {-kBelow * depth_, kAbove * depth_};
-        if (shown_.high < 2e-6 || shown_.high > 5e-3) unit_ = prefix_for(shown_.high);
+        axes_.x = {.label = "$x$ / m", .from = -half_width_, .to = half_width_, .short_numbers = true};
+        axes_.y = {.label = "$y$ / m", .from = -kBelow * depth_, .to = kAbove * depth_, .short_numbers = true};
+        unit_ = prefix_for(kAbove * depth_);
+        Image none(1, 1);
+        plot_.place(Canvas(none, *context.fonts), area_);
     }
 
     void draw_background(Canvas& canvas) const override {
-        const double u = context_.look.unit;
-        const Palette& p = context_.look.palette;
+        const bool has_cam = motion().problem.cam.has_value();
         const TextStyle bold{.size = context_.look.letters.heading, .weight = Weight::semibold},
             plain{.size = context_.look.letters.heading, .weight = Weight::medium};
-        const double room =
-            plot_.w - canvas.measure(context_.look.translate("penetration") + " 000\u00A0µm", plain).w - 16 * u;
-        const std::string whose = motion_suffix(context_, member_);
+        const double room = area_.w - 16 * context_.look.unit -
+                            canvas.measure(context_.look.translate("penetration") + " 000\u00A0µm", plain).w;
+        const std::string whose = motion_suffix(context_, member_), name = has_cam ? " " + plot_.y().name() : "";
         const std::string whole = context_.look.translate("Contact close-up"),
                           brief = context_.look.translate("Contact");
         // The reading is beside the heading.
-        draw_heading(canvas, context_, {plot_.x, box_.y, plot_.w, plot_.h},
-                     first_that_fits(canvas, {whole + whose, brief + whose, brief, ""}, bold, room));
-        canvas.rectangle(plot_);
-        canvas.fill(close_up_background(p));
-        if (!motion().problem.cam) return;
-        draw_heights(canvas);
-        draw_scales(canvas);
+        draw_heading(
+            canvas, context_, {area_.x, box_.y, area_.w, area_.h},
+            first_that_fits(canvas, {whole + whose + name, brief + whose + name, brief + name, brief, ""}, bold, room));
+        canvas.rectangle(area_);
+        canvas.fill(close_up_background(context_.look.palette));
+        if (!has_cam) return;
+        plot_.draw_y_axis(canvas);
+        plot_.draw_x_axis(canvas);
     }
 
-    void draw(Canvas& canvas, int frame, Style, State*) const override {
+    void draw(Canvas& canvas, int frame, Style, BodyPicture&) const override {
         const sim::Pose& pose = context_.pose(member_, frame);
         if (!motion().problem.cam || !pose.nearest) return;
         const sim::Nearest& near = *pose.nearest;
-        canvas.clip(plot_, [&] {
+        canvas.clip(area_, [&] {
             canvas.without_halo([&] {
                 draw_cam(canvas, pose);
                 draw_beam(canvas, pose);
             });
         });
-        CloseUpReadings{context_, motion(), box_, plot_, unit_}.draw(canvas, pose, at(0, near.gap).y);
+        CloseUpReadings{context_, motion(), box_, area_, unit_}.draw(canvas, pose, at(0, near.gap).y);
     }
 
   private:
     const Motion& motion() const { return context_.motion(member_); }
-    Vec2 at(double x, double y) const {
-        return {plot_.x + plot_.w * (x + half_width_) / (2 * half_width_),
-                plot_.bottom() - plot_.h * (y - shown_.low) / (shown_.high - shown_.low)};
-    }
+    Vec2 at(double x, double y) const { return plot_.at(x, y); }
     // Of the disc that osculates the cam at the contact.
     static double cam_height(const sim::Pose& pose, double x) {
         const double r = pose.disc_radius;
         return std::sqrt(std::max(0.0, r * r - x * x)) - r;
-    }
-
-    void draw_heights(Canvas& canvas) const {
-        const double u = context_.look.unit;
-        const Palette& p = context_.look.palette;
-        // At least two marks, since one does not show a scale.
-        Ticks marks;
-        for (int most = std::clamp(static_cast<int>(plot_.h / (45 * u)), 2, 5); marks.values.size() < 2; ++most)
-            marks = ticks(shown_.low / unit_.factor, shown_.high / unit_.factor, most);
-        for (double v : marks.values) {
-            const double y = std::round(at(0, v * unit_.factor).y) + 0.5;
-            canvas.line({plot_.x - 6 * u, y}, {plot_.x, y}, {p.muted, std::max(1.0, u), {}, Cap::butt});
-            canvas.text({plot_.x - 12 * u, y + 6.0 / 17 * context_.look.letters.words}, fixed(v, marks.decimals),
-                        {.size = context_.look.letters.words, .color = p.muted, .align = HAlign::right});
-        }
-    }
-
-    // The scale bar of widths, and beside it how heights are enlarged.
-    void draw_scales(Canvas& canvas) const {
-        const double u = context_.look.unit;
-        const TextStyle note{.size = context_.look.letters.words, .color = context_.look.palette.muted};
-        TextStyle at_right = note;
-        at_right.align = HAlign::right;
-        const double bar = round_down_125(0.5 * half_width_), w = bar / (2 * half_width_) * plot_.w;
-        const double y = plot_.bottom() + 12 * u, x1 = plot_.right();
-        canvas.polyline(std::array<Vec2, 4>{{{x1 - w, y - 4 * u}, {x1 - w, y}, {x1, y}, {x1, y - 4 * u}}});
-        canvas.stroke({note.color, 1.6 * u, {}, Cap::butt});
-        const std::string length = quantity(bar, "m");
-        canvas.text({x1, y + 3 * u + context_.look.letters.words}, length, at_right);
-        const double left = plot_.w - std::max(w, canvas.measure(length, note).w) - 20 * u;
-        const double stretch = (plot_.h / (shown_.high - shown_.low)) / (plot_.w / (2 * half_width_));
-        const double digit = ten_to(static_cast<int>(std::floor(std::log10(stretch))));  // one is enough
-        const std::string brief =
-            fmt::format("heights in {}m, ×{}", unit_.symbol, power_text(std::round(stretch / digit) * digit));
-        const auto translate = [&](std::string text) { return context_.look.translate(std::move(text)); };
-        const std::string unit = fmt::format("{}m", unit_.symbol);
-        canvas.text(
-            {plot_.x, y - 3 * u + context_.look.letters.words},
-            first_that_fits(canvas, {translate(brief + " against widths"), translate(brief), unit, ""}, note, left),
-            note);
     }
 
     // Fills the area between the line and this height [px].
@@ -144,7 +100,7 @@ class CloseUpPanel final : public FilmPanel {
     void draw_cam(Canvas& canvas, const sim::Pose& pose) const {
         const Palette& p = context_.look.palette;
         const std::vector<Vec2> edge = rim(pose);
-        fill_to(canvas, edge, plot_.bottom() + 4, p.steel);
+        fill_to(canvas, edge, area_.bottom() + 4, p.steel);
         canvas.polyline(edge);
         canvas.stroke({p.steel_edge, 2 * context_.look.unit});
     }
@@ -178,17 +134,17 @@ class CloseUpPanel final : public FilmPanel {
     void draw_beam(Canvas& canvas, const sim::Pose& pose) const {
         const Palette& p = context_.look.palette;
         const double u = context_.look.unit;
-        if (pose.nearest->gap > shown_.high) {  // above the plot: an arrow points to it
-            const double x = plot_.x + 20 * u;
-            canvas.arrow({x, plot_.y + 40 * u}, {x, plot_.y + 10 * u}, {p.motion, 2.4 * u}, {14 * u});
-            canvas.text({x + 14 * u, plot_.y + 31 * u}, context_.look.translate("beam"),
+        if (pose.nearest->gap > kAbove * depth_) {  // above the plot: an arrow points to it
+            const double x = area_.x + 20 * u;
+            canvas.arrow({x, area_.y + 40 * u}, {x, area_.y + 10 * u}, {p.motion, 2.4 * u}, {14 * u});
+            canvas.text({x + 14 * u, area_.y + 31 * u}, context_.look.translate("beam"),
                         {.size = context_.look.letters.words, .color = p.motion, .weight = Weight::medium});
             return;
         }
         const std::vector<Vec2> heights = face(pose);
         std::vector<Vec2> edge;
         for (Vec2 h : heights) edge.push_back(at(h.x, h.y));
-        fill_to(canvas, edge, plot_.y - 4, p.motion.faded(0.30));
+        fill_to(canvas, edge, area_.y - 4, p.motion.faded(0.30));
         // The overlap.
         std::vector<Vec2> over, under;
         for (Vec2 h : heights)
@@ -205,12 +161,12 @@ class CloseUpPanel final : public FilmPanel {
         canvas.polyline(edge);
         canvas.stroke({p.motion, 2.4 * u});
         const TextStyle name{.size = context_.look.letters.words, .color = p.motion, .weight = Weight::medium};
-        const double top = std::max(edge.front().y, plot_.y + 30 * u);
-        if (top - plot_.y > 24 * u)
-            canvas.text({plot_.x + 12 * u, std::min(plot_.y + 24 * u, top - 6 * u)}, context_.look.translate("beam"),
+        const double top = std::max(edge.front().y, area_.y + 30 * u);
+        if (top - area_.y > 24 * u)
+            canvas.text({area_.x + 12 * u, std::min(area_.y + 24 * u, top - 6 * u)}, context_.look.translate("beam"),
                         name);
-        if (at(0, std::min(0.0, pose.nearest->gap)).y < plot_.bottom() - 32 * u)  // below the overlap
-            canvas.text({plot_.x + plot_.w / 2 - 14 * u, plot_.bottom() - 12 * u}, context_.look.translate("cam"),
+        if (at(0, std::min(0.0, pose.nearest->gap)).y < area_.bottom() - 32 * u)  // below the overlap
+            canvas.text({area_.x + area_.w / 2 - 14 * u, area_.bottom() - 12 * u}, context_.look.translate("cam"),
                         {.size = context_.look.letters.words,
                          .color = mix(p.steel_edge, p.steel, 0.25),
                          .weight = Weight::medium});
@@ -220,7 +176,7 @@ class CloseUpPanel final : public FilmPanel {
     void forces(Canvas& canvas, const sim::Nearest& near) const {
         if (!near.touching || !(near.force > 0) || !(context_.scales.force > 0)) return;
         const Palette& p = context_.look.palette;
-        const double u = context_.look.unit, longest = 0.55 * plot_.h;
+        const double u = context_.look.unit, longest = 0.55 * area_.h;
         const Vec2 foot = at(0, near.gap / 2);
         // Both forces have the same scale; a short arrow has a head of half its length.
         const auto arrow = [&](double force, Vec2 way) {
@@ -236,10 +192,12 @@ class CloseUpPanel final : public FilmPanel {
 
     const FilmContext& context_;
     int member_;
-    Box box_, plot_;
+    Box box_, area_;
+    figure::PlotStyle style_;
+    figure::Panel axes_;
+    figure::Plot plot_;
     double depth_ = 0, half_width_ = 1;  // [m]
-    Range shown_;                        // heights [m]
-    Prefix unit_{"µ", 1e-6};             // unit of heights: µm unless they are much larger or smaller
+    Prefix unit_{"µ", 1e-6};             // of heights
 };
 
 }  // namespace

@@ -10,9 +10,9 @@ namespace {
 
 using sim::ChannelKind;
 
-// V + T + U + U_c + losses, stacked: their sum is the initial energy plus the work done by cam and drive, so where
-// V ≥ 0 the outline of the stack is the supplied energy. Where V < 0 its band is below zero, and the others are stacked
-// on zero.
+// All terms of the balance, stacked: their sum is the initial energy plus the work done by cam and drive, so where V ≥
+// 0 the outline of the stack is the supplied energy. Where V < 0 its band is below zero, and the others are stacked on
+// zero.
 class EnergyPanel final : public ChartPanel {
   public:
     EnergyPanel(const FilmContext& context, const PanelSlot& slot)
@@ -24,8 +24,8 @@ class EnergyPanel final : public ChartPanel {
         ChartPanel::draw_background(canvas);
         legend(canvas);
     }
-    void draw(Canvas& canvas, int frame, Style style, State* state) const override {
-        ChartPanel::draw(canvas, frame, style, state);
+    void draw(Canvas& canvas, int frame, Style style, BodyPicture& bodies) const override {
+        ChartPanel::draw(canvas, frame, style, bodies);
         draw_member(canvas);
     }
 
@@ -43,9 +43,12 @@ class EnergyPanel final : public ChartPanel {
             const Color color = *energy_color(p, channels.front());
             return Part{context.look.translate(label), std::move(symbol), std::move(channels), color};
         };
-        return {part("potential", "$V$", {K::energy_potential}), part("kinetic", "$T$", {K::energy_kinetic}),
-                part("bending", "$U$", {K::energy_elastic}), part("contact", "$U$_{c}", {K::energy_contact}),
-                part("lost", "$D$", {K::loss_structural, K::loss_contact, K::loss_friction})};
+        return {part("potential", "$V$", {K::energy_potential}),
+                part("kinetic", "$T$", {K::energy_kinetic}),
+                part("bending", "$U$", {K::energy_elastic}),
+                part("spring", "$U$_{h}", {K::energy_spring}),
+                part("contact", "$U$_{c}", {K::energy_contact}),
+                part("lost", "$D$", {K::loss_structural, K::loss_hub, K::loss_contact, K::loss_friction})};
     }
 
     static ChartContent content(const FilmContext& context, const PanelSlot& slot) {
@@ -147,8 +150,8 @@ PanelType energy_panel() {
             .name = "energy",
             .smallest = {300, 150},
             .make = make_panel<EnergyPanel>,
-            .channels = {energy_kinetic, energy_potential, energy_elastic, energy_contact, loss_structural,
-                         loss_contact, loss_friction, work_cam, work_drive},
+            .channels = {energy_kinetic, energy_potential, energy_elastic, energy_spring, energy_contact,
+                         loss_structural, loss_hub, loss_contact, loss_friction},
             .takes_window = true};
 }
 

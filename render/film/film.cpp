@@ -50,8 +50,7 @@ struct Film::Prepared {
 
     // True: the title is cut.
     bool draw_background(Canvas& canvas) const;
-    void draw_moving(Canvas& canvas, int frame, Style style,
-                     const std::vector<std::unique_ptr<FilmPanel::State>>& states) const;
+    void draw_moving(Canvas& canvas, int frame, Style style, std::vector<BodyPicture>& bodies) const;
 
   private:
     bool draw_header(Canvas& canvas) const;
@@ -62,15 +61,15 @@ struct Film::Prepared {
 struct Film::FrameRenderer {
     explicit FrameRenderer(const Prepared& p)
         : fonts(p.context.look.cjk),
+          bodies(p.panels.size()),
           picture(p.background.width, p.background.height),
           moved(picture.width, picture.height),
           changed(moved) {
         ++p.context.counts->font_sets;
-        for (const auto& panel : p.panels) states.push_back(panel->make_state());
     }
 
     Fonts fonts;
-    std::vector<std::unique_ptr<FilmPanel::State>> states;
+    std::vector<BodyPicture> bodies;  // of the panels
     Image picture;
     int frame = -1;      // in the picture; < 0: none
     DirtyTiles moved;    // where the picture may differ from the background
@@ -105,13 +104,12 @@ bool Film::Prepared::draw_header(Canvas& canvas) const {
     }
     std::vector<const sim::Problem*> problems;
     for (int m = 0; m < context.members(); ++m) problems.push_back(&context.motion(m).problem);
-    std::vector<std::string> pieces = common_pieces(problems, setup.units.speed);
-    for (std::string& piece : pieces) piece = context.look.translate(std::move(piece));
-    const ParameterLine line = parameter_line(canvas, places, pieces);
+    const ParameterLine line =
+        parameter_line(canvas, places, common_pieces(problems, context.look.lang, setup.units.speed));
     for (const ParameterLine::Piece& piece : line.pieces)
         canvas.text(piece.baseline, piece.markup, {.size = line.size, .color = context.look.palette.muted});
     if (const auto& b = places.warning; b && !setup.warning.empty())
-        canvas.text({b->right(), b->y + 19 * u}, text_markup(context.look.translate(setup.warning)),
+        canvas.text({b->right(), b->y + 19 * u}, text_markup(setup.warning),
                     {.size = context.look.letters.words,
                      .color = context.look.palette.muted,
                      .align = HAlign::right,
@@ -158,9 +156,8 @@ bool Film::repeats(int frame) const {
     return still(setup) && std::ranges::all_of(setup.others, still);
 }
 
-void Film::Prepared::draw_moving(Canvas& canvas, int frame, Style style,
-                                 const std::vector<std::unique_ptr<FilmPanel::State>>& states) const {
-    for (std::size_t i = 0; i < panels.size(); ++i) panels[i]->draw(canvas, frame, style, states[i].get());
+void Film::Prepared::draw_moving(Canvas& canvas, int frame, Style style, std::vector<BodyPicture>& bodies) const {
+    for (std::size_t i = 0; i < panels.size(); ++i) panels[i]->draw(canvas, frame, style, bodies[i]);
     captions->draw(canvas, frame);
     clock->draw(canvas, frame);
 }
@@ -183,7 +180,7 @@ const Image& Film::draw(int frame) {
     Canvas canvas(t.picture, t.fonts);
     canvas.halo_of_all = prepared_->context.look.palette.halo_of_all();
     canvas.touched = &t.moved;
-    prepared_->draw_moving(canvas, frame, prepared_->context.setup->view.style, t.states);
+    prepared_->draw_moving(canvas, frame, prepared_->context.setup->view.style, t.bodies);
     t.changed.add(t.moved);
     t.frame = frame;
     return t.picture;
@@ -204,7 +201,7 @@ std::string Film::draw(int frame, Medium medium, const Document& document) {
     {
         Canvas canvas(file, width, height, t.fonts);
         p.draw_background(canvas);
-        p.draw_moving(canvas, frame, p.context.setup->view.style, t.states);
+        p.draw_moving(canvas, frame, p.context.setup->view.style, t.bodies);
     }
     return file.take_bytes();
 }
@@ -217,7 +214,7 @@ FrameGeometry Film::geometry(int frame) {
     Canvas canvas(scratch, t.fonts);
     canvas.halo_of_all = p.context.look.palette.halo_of_all();
     canvas.record = &out.texts;
-    p.draw_moving(canvas, frame, Style::flat, t.states);
+    p.draw_moving(canvas, frame, Style::flat, t.bodies);
     if (p.mechanism) {
         out.camera = p.mechanism->camera(frame);
         out.beam = p.mechanism->beam(frame);

@@ -146,7 +146,6 @@ struct FrameGeometry {
 struct DrawingCounts {
     std::atomic<long> font_sets = 0, gl_contexts = 0;
     std::atomic<long> bodies_drawn = 0;  // drawings by OpenGL, which are skipped while nothing moves
-    std::atomic<double> read_back = 0;   // time of reading pixels from OpenGL [s]
 };
 
 // Each thread uses its own Film; `for_thread` returns another one that shares the prepared data. Throws PictureError

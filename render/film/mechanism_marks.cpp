@@ -66,8 +66,8 @@ Color ink_on_disc(const MechanismScene& s) {
 // On the front of the disc.
 void draw_disc_marks(const MechanismScene& s, const Trace& trace) {
     const DiscShape& d = *s.shape.disc;
-    const double inset = std::min(7 * s.at.unit, 0.1 * d.radius), n = static_cast<double>(trace.rim().size());
-    stroke_places(s.canvas, s.at.context, trace.rim(), inset, [&](std::size_t i) {
+    const double inset = std::min(7 * s.at.unit, 0.1 * d.radius), n = static_cast<double>(trace.rim.size());
+    stroke_places(s.canvas, s.at.context, trace.rim, inset, [&](std::size_t i) {
         const double share = (static_cast<double>(i) + 0.5) / n, wide = 1.7 / n;
         s.canvas.move_to(s.on_disc(d.rim(share - wide, inset)));
         s.canvas.line_to(s.on_disc(d.rim(share, inset)));
@@ -96,7 +96,7 @@ void draw_disc_marks(const MechanismScene& s, const Trace& trace) {
 }
 
 void draw_beam_trace(const MechanismScene& s, const Trace& trace) {
-    const double n = static_cast<double>(trace.beam().size()), last = static_cast<double>(s.beam.line.size() - 1);
+    const double n = static_cast<double>(trace.beam.size()), last = static_cast<double>(s.beam.line.size() - 1);
     const double inset = 4.5 * s.at.unit;
     const auto at = [&](double place) {
         const double station = std::clamp(place / n * last, 0.0, last);
@@ -106,7 +106,7 @@ void draw_beam_trace(const MechanismScene& s, const Trace& trace) {
                    back = s.px(s.beam.back(i) * (1 - part) + s.beam.back(i + 1) * part);
         return face + (back - face) * (inset / norm(back - face));
     };
-    stroke_places(s.canvas, s.at.context, trace.beam(), 5 * s.at.unit, [&](std::size_t i) {
+    stroke_places(s.canvas, s.at.context, trace.beam, 5 * s.at.unit, [&](std::size_t i) {
         s.canvas.move_to(at(static_cast<double>(i) - 1.2));
         s.canvas.line_to(at(static_cast<double>(i) + 2.2));
     });

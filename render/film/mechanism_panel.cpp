@@ -18,20 +18,6 @@ Pen horizontal_pen(const MechanismView& at) {
 
 // ---- prepared once for a film ----------------------------------------------------------------
 
-struct MechanismPanel::ThreadState final : FilmPanel::State {
-    ThreadState(const FilmContext& context, int member, double scale) : trace(trace_of(context, member, scale)) {}
-    static Trace trace_of(const FilmContext& context, int member, double scale) {
-        const sim::Problem& problem = context.motion(member).problem;
-        const double rim = problem.cam ? cam_circumference(problem) : 1, length = problem.beam.length;
-        const auto places = [&](double metres) {
-            return static_cast<std::size_t>(std::clamp(metres * scale, 1.0, 65536.0));
-        };
-        return {context.samples[static_cast<std::size_t>(member)], rim, places(rim), length, places(length)};
-    }
-    Trace trace;
-    BodyPicture bodies;
-};
-
 MechanismPanel::MechanismPanel(const FilmContext& context, const PanelSlot& slot)
     : at_(context, slot), legend_(at_), cameras_(at_), tip_path_(at_), rings_(at_) {
     std::vector<Followed> followed;
@@ -44,8 +30,14 @@ MechanismPanel::MechanismPanel(const FilmContext& context, const PanelSlot& slot
     cameras_.follow(followed);
 }
 
-std::unique_ptr<FilmPanel::State> MechanismPanel::make_state() const {
-    return std::make_unique<ThreadState>(at_.context, at_.member, at_.look.camera.scale);
+Trace MechanismPanel::trace_until(double t) const {
+    const sim::Problem& problem = at_.problem();
+    const double rim = problem.cam ? cam_circumference(problem) : 1, length = problem.beam.length;
+    const auto places = [&](double metres) {
+        return static_cast<std::size_t>(std::clamp(metres * at_.look.camera.scale, 1.0, 65536.0));
+    };
+    return render::trace_until(at_.context.samples[static_cast<std::size_t>(at_.member)], t, rim, places(rim), length,
+                               places(length));
 }
 
 // For the solid view this is an estimate: it is evaluated as if seen from the front.
@@ -106,16 +98,15 @@ static void fade_edges(Canvas& canvas, const MechanismView& at) {
     }
 }
 
-void MechanismPanel::draw(Canvas& canvas, int frame, Style style, State* state) const {
-    auto& threads = *static_cast<ThreadState*>(state);
-    if (!cameras_.moves()) return draw_moving(canvas, at_, frame, style, threads);
+void MechanismPanel::draw(Canvas& canvas, int frame, Style style, BodyPicture& bodies) const {
+    if (!cameras_.moves()) return draw_moving(canvas, at_, frame, style, bodies);
     const double presence = cameras_.presence(frame);
     if (presence == 0) return;
     const MechanismView at = cameras_.view(frame);
     canvas.clip(at.box, [&] {
         canvas.layer(presence, [&] {
             draw_still(canvas, at);
-            draw_moving(canvas, at, frame, style, threads);
+            draw_moving(canvas, at, frame, style, bodies);
             fade_edges(canvas, at);
         });
         legend_.draw(canvas, at);
@@ -123,9 +114,9 @@ void MechanismPanel::draw(Canvas& canvas, int frame, Style style, State* state) 
 }
 
 void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int frame, Style style,
-                                 ThreadState& threads) const {
+                                 BodyPicture& bodies) const {
     const auto [pose, drawn, shape] = at.drawn_frame(frame);
-    threads.trace.advance_to(pose.t);
+    const Trace trace = trace_until(pose.t);
     const std::optional<Projection> perspective = cameras_.perspective(at, frame);
     const MechanismScene s{canvas, frame, pose, drawn, shape, at, perspective ? &*perspective : nullptr};
     if (at.ghosts) draw_ghost_bodies(s);
@@ -137,8 +128,11 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
     draw_angle(s);
     tip_path_.draw_trail(s);
     canvas.without_halo([&] {
-        draw_bodies(s, style, threads);
-        draw_beam_trace(s, threads.trace);
+        if (!s.view || style == Style::solid) {  // else only the labels are needed
+            style == Style::flat ? draw_flat(canvas, shape, at.unit, at.palette) : bodies.draw(s);
+            if (shape.disc) draw_disc_marks(s, trace);
+        }
+        draw_beam_trace(s, trace);
     });
     if (at.ghosts) draw_ghost_outlines(s);
     if (at.member == 0) draw_measured_beams(s);
@@ -146,15 +140,6 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
     draw_hub_torque(s);
     rings_.draw(s);
     draw_force(s);
-}
-
-void MechanismPanel::draw_bodies(const MechanismScene& s, Style style, ThreadState& threads) const {
-    if (s.view && style != Style::solid) return;  // only the labels are needed
-    if (style == Style::flat)
-        draw_flat(s.canvas, s.shape, s.at.unit, s.at.palette);
-    else
-        threads.bodies.draw(s);
-    if (s.shape.disc) draw_disc_marks(s, threads.trace);
 }
 
 bool MechanismPanel::animates_while_paused(int frame) const { return cameras_.move_at(frame); }

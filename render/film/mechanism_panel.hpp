@@ -16,21 +16,19 @@ class MechanismPanel final : public FilmPanel {
   public:
     MechanismPanel(const FilmContext& context, const PanelSlot& slot);
 
-    std::unique_ptr<State> make_state() const override;
     void draw_background(Canvas& canvas) const override;
     bool cuts_names() const override { return legend_.cuts_names(); }
     bool animates_while_paused(int frame) const override;
-    void draw(Canvas& canvas, int frame, Style style, State* state) const override;
+    void draw(Canvas& canvas, int frame, Style style, BodyPicture& bodies) const override;
 
     Camera camera(int frame) const { return cameras_.view(frame).look.camera; }
     int empty_frames() const;  // frames in which no part of the mechanism is in the camera's view
     DrawnBeam beam(int frame) const { return at_.beam_of(at_.member, frame); }
 
   private:
-    struct ThreadState;  // a FilmPanel::State
     void draw_still(Canvas& canvas, const MechanismView& at) const;
-    void draw_bodies(const MechanismScene& s, Style style, ThreadState& threads) const;
-    void draw_moving(Canvas& canvas, const MechanismView& at, int frame, Style style, ThreadState& threads) const;
+    Trace trace_until(double t) const;
+    void draw_moving(Canvas& canvas, const MechanismView& at, int frame, Style style, BodyPicture& bodies) const;
 
     MechanismView at_;
     MechanismLegend legend_;

@@ -1,7 +1,7 @@
 // A panel: a box of the frame, drawn in two layers: a background that never changes, and the moving parts on top.
 //
-// Panels are created once for a film and shared by all drawing threads. Data that a thread keeps between frames (a GL
-// context, the path of a point up to the last frame) is its State, which may save time but never changes a pixel.
+// Panels are created once for a film and shared by all drawing threads, which keep nothing between frames but the
+// OpenGL picture of each panel.
 #pragma once
 
 #include <functional>
@@ -46,7 +46,9 @@ struct FilmLook {
     bool cjk = false;  // some text needs the Chinese font
     double unit = 1;   // [px] of one design pixel
     Letters letters;
-    std::string translate(std::string english) const { return in(lang, std::move(english)); }
+    std::string translate(std::string_view english, const auto&... values) const {
+        return phrase(lang, english, values...);
+    }
 };
 
 // Everything that the panels of a film share. Created once, constant while frames are drawn.
@@ -103,15 +105,12 @@ struct FilmContext {
 };
 
 using sim::kNan;
+class BodyPicture;
 
 class FilmPanel {
   public:
-    struct State {
-        virtual ~State() = default;
-    };
     virtual ~FilmPanel() = default;
 
-    virtual std::unique_ptr<State> make_state() const { return nullptr; }
     virtual void draw_background(Canvas& canvas) const = 0;
 
     virtual bool cuts_names() const { return false; }  // of motions
@@ -119,8 +118,8 @@ class FilmPanel {
     // The panel changes between the previous frame and this one even if both show the same instant.
     virtual bool animates_while_paused(int) const { return false; }
 
-    // Draws the moving parts. `style` may be simpler than the view's.
-    virtual void draw(Canvas& canvas, int frame, Style style, State* state) const = 0;
+    // Draws the moving parts. `style` may be simpler than the view's. `bodies`: the thread's, of this panel.
+    virtual void draw(Canvas& canvas, int frame, Style style, BodyPicture& bodies) const = 0;
 };
 
 template <class Panel>

@@ -96,7 +96,7 @@ class PhasePanel final : public FilmPanel {
         const std::string name = plot_.y().name(),
                           words = heading(ChannelKind::theta_dot, context_.setup->view.lang) + name,
                           smoothing = smoothing_ > 0
-                                          ? context_.look.translate("smoothed over " + quantity(smoothing_, "s"))
+                                          ? context_.look.translate("smoothed over {}", quantity(smoothing_, "s"))
                                           : std::string(),
                           end = smoothing.empty() ? smoothing : ", " + smoothing;
         const TextStyle heading{.size = context_.look.letters.heading, .weight = Weight::semibold};
@@ -111,7 +111,7 @@ class PhasePanel final : public FilmPanel {
         }
     }
 
-    void draw(Canvas& canvas, int frame, Style, State*) const override {
+    void draw(Canvas& canvas, int frame, Style, BodyPicture&) const override {
         for (std::size_t m = 0; m < paths_.size(); ++m) {
             const auto& [times, points] = paths_[m];
             const auto past = std::ranges::upper_bound(times, context_.clock.at(frame)) - times.begin();

@@ -150,9 +150,12 @@ std::optional<Color> energy_color(const Palette& p, ChannelKind kind) {
             return p.motion;
         case ChannelKind::energy_elastic:
             return p.tint(series_color(p, 4), 0.75);  // not that of a compared motion
+        case ChannelKind::energy_spring:
+            return p.tint(series_color(p, 5), 0.45);
         case ChannelKind::energy_contact:
             return p.contact;
         case ChannelKind::loss_structural:
+        case ChannelKind::loss_hub:
         case ChannelKind::loss_contact:
         case ChannelKind::loss_friction:
             return p.tint(p.muted, 0.55);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -46,17 +47,8 @@ class StripPanel final : public ChartPanel {
 // collision begins; before the first one it shows the axes of the first one. All collisions share the axis of values.
 // Collisions of compared motions that follow each other within three times their duration are one.
 class CollisionPanel final : public FilmPanel {
-    struct Shown final : State {
-        std::optional<Chart> chart;
-        std::size_t which = 0;
-    };
-
   public:
-    CollisionPanel(const FilmContext& context, const PanelSlot& slot)
-        : context_(context),
-          spec_(slot.spec),
-          box_(slot.box),
-          plot_(plot_area(slot.box, context.look.unit, context.look.letters.words)) {
+    CollisionPanel(const FilmContext& context, const PanelSlot& slot) : context_(context), spec_(slot.spec) {
         std::vector<std::pair<sim::Impact, std::size_t>> impacts;  // and their motions
         for (int m = 0; m < context.members(); ++m)
             for (const sim::Impact& i : context.motion(m).impacts) impacts.emplace_back(i, std::size_t(m));
@@ -78,26 +70,26 @@ class CollisionPanel final : public FilmPanel {
         content_.panel.events.clear();
         content_.past_only = context.frames() > 1;  // the picture of a touch shows the force that follows
         curves_ = std::exchange(content_.panel.series, {});
+        const Box plot = plot_area(slot.box, context.look.unit, context.look.letters.words);
+        for (int k = 0; k < context.frames(); ++k)
+            if (const std::size_t which = shown(context.clock.at(k)); !charts_.contains(which))
+                charts_.try_emplace(which, content_of(which), slot.box, plot, chart_style(context), *context.fonts);
     }
 
     void draw_background(Canvas&) const override {}
-    std::unique_ptr<State> make_state() const override { return std::make_unique<Shown>(); }
 
-    void draw(Canvas& canvas, int frame, Style, State* state) const override {
-        Shown& s = *static_cast<Shown*>(state);
+    void draw(Canvas& canvas, int frame, Style, BodyPicture&) const override {
         const double now = context_.clock.at(frame);
-        if (const std::size_t which = shown(now); !s.chart || s.which != which) {
-            s.chart.emplace(content_of(which), box_, plot_, chart_style(context_), canvas.fonts());
-            s.which = which;
-        }
-        s.chart->draw_background(canvas);
+        const std::size_t which = shown(now);
+        const Chart& chart = charts_.at(which);
+        chart.draw_background(canvas);
         std::vector<double> readings;
         std::vector<Vec2> peaks;
         for (const Channel channel : spec_.channels)
             for (int m = 0; m < context_.members(); ++m) readings.push_back(reading(context_, m, frame, channel));
         for (int m = 0; peaks_ && m < context_.members(); ++m)
-            peaks.push_back(peaks_->of(m, now) - Vec2{start(s.which), 0});
-        s.chart->draw_moving(canvas, now - start(s.which), readings, peaks);
+            peaks.push_back(peaks_->of(m, now) - Vec2{start(which), 0});
+        chart.draw_moving(canvas, now - start(which), readings, peaks);
     }
 
   private:
@@ -131,8 +123,7 @@ class CollisionPanel final : public FilmPanel {
                 time = {first - kShown - span.low, first - span.low};
             else if (context_.clock.span.low > shown_until && span.high > context_.clock.span.low)
                 time = {context_.clock.span.low - span.low, std::min(span.high, context_.clock.span.high) - span.low};
-            if (context_.members() == 1)
-                c.words = context_.look.translate(fmt::format("Collision {}", spans_[which].number)) + ", ";
+            if (context_.members() == 1) c.words = context_.look.translate("Collision {}", spans_[which].number) + ", ";
         }
         const Prefix prefix = time.high < 1 ? prefix_for(time.high) : Prefix{"", 1};
         c.set_time(time, prefix.factor, fmt::format("($t$ − $t$_{{0}}) / {}s", prefix.symbol));
@@ -153,10 +144,10 @@ class CollisionPanel final : public FilmPanel {
     const FilmContext& context_;
     PanelSpec spec_;
     std::optional<Peaks> peaks_;
-    Box box_, plot_;
     std::vector<Collision> spans_;
     ChartContent content_;
     std::vector<figure::Series> curves_;
+    std::map<std::size_t, Chart> charts_;  // of the collisions that frames show
 };
 
 }  // namespace

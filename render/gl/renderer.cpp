@@ -15,8 +15,8 @@
 namespace beamcam::render {
 namespace {
 
-// The only software driver with OpenGL 3.3; EGL would prefer a graphics card. It draws in the calling thread: frames are
-// drawn side by side anyway, and it would wait forever for threads that cannot start.
+// The only software driver with OpenGL 3.3; EGL would prefer a graphics card. It draws in the calling thread: frames
+// are drawn side by side anyway, and it would wait forever for threads that cannot start.
 constexpr std::pair<const char*, const char*> kChosen[] = {
     {"GALLIUM_DRIVER", "llvmpipe"}, {"LIBGL_ALWAYS_SOFTWARE", "1"}, {"LP_NUM_THREADS", "0"}};
 
@@ -67,9 +67,8 @@ std::unique_ptr<BodyRenderer> make_body_renderer(int width, int height) {
     std::string reasons;
     for (const std::string& name : modules()) {
         try {
-            const auto* library =
-                static_cast<const BodyRendererLibrary*>(load_module(fmt::format("beamcam_{}.so", name)));
-            return library->make_renderer(width, height);
+            const void* make = load_module(fmt::format("beamcam_{}.so", name));
+            return (*static_cast<const MakeBodyRenderer*>(make))(width, height);
         } catch (const GlError& error) {
             reasons += fmt::format("\n{}", error.what());
         } catch (const ModuleError& error) {

@@ -21,16 +21,10 @@ class BodyRenderer {
     // Draws premultiplied pixels on a transparent background, of the size given at creation.
     virtual void draw(const BodyScene& scene, Image& out) = 0;
     virtual std::string name() const = 0;  // of the driver, for fingerprints
-
-    double read_back = 0;  // total time of reading pixels [s]
 };
 
 // Offered by the modules beamcam_osmesa.so and beamcam_egl.so.
-class BodyRendererLibrary {
-  public:
-    virtual ~BodyRendererLibrary() = default;
-    virtual std::unique_ptr<BodyRenderer> make_renderer(int width, int height) const = 0;
-};
+using MakeBodyRenderer = std::unique_ptr<BodyRenderer> (*)(int width, int height);
 
 // Throws GlError.
 std::unique_ptr<BodyRenderer> make_body_renderer(int width, int height);

@@ -50,26 +50,18 @@ std::vector<TraceSample> contact_samples(const sim::Table& table, std::span<cons
     return out;
 }
 
-Trace::Trace(std::span<const TraceSample> samples, double circumference, std::size_t rim_places, double length,
-             std::size_t beam_places)
-    : samples_(samples), circumference_(circumference), length_(length), rim_(rim_places), beam_(beam_places) {}
-
-void Trace::advance_to(double t) {
-    const auto after = std::ranges::upper_bound(samples_, t, {}, &TraceSample::t);
-    const auto until = static_cast<std::size_t>(after - samples_.begin());
-    if (until < shown_) {
-        std::ranges::fill(rim_, 0.0F);
-        std::ranges::fill(beam_, 0.0F);
-        shown_ = 0;
-    }
-    for (; shown_ < until; ++shown_) {
-        const TraceSample& sample = samples_[shown_];
-        const double turns = sample.s / circumference_;
-        float& on_rim = rim_[place(turns - std::floor(turns), rim_.size())];
-        float& on_beam = beam_[place(sample.x / length_, beam_.size())];
+Trace trace_until(std::span<const TraceSample> samples, double t, double circumference, std::size_t rim_places,
+                  double length, std::size_t beam_places) {
+    Trace out{std::vector<float>(rim_places), std::vector<float>(beam_places)};
+    for (const TraceSample& sample : samples) {
+        if (sample.t > t) break;
+        const double turns = sample.s / circumference;
+        float& on_rim = out.rim[place(turns - std::floor(turns), rim_places)];
+        float& on_beam = out.beam[place(sample.x / length, beam_places)];
         on_rim = std::max(on_rim, static_cast<float>(sample.force));
         on_beam = std::max(on_beam, static_cast<float>(sample.force));
     }
+    return out;
 }
 
 }  // namespace beamcam::render

@@ -1,7 +1,6 @@
 // The trace of the contact: the largest force so far at each place of the disc's rim and of the beam's face.
 //
-// Samples are sorted into bins a pixel wide. The maximum does not depend on the order of the samples, so the trace is
-// the same in whatever order frames are drawn.
+// Samples are sorted into bins a pixel wide.
 #pragma once
 
 #include <cstddef>
@@ -20,20 +19,12 @@ struct TraceSample {
 // between them: its place at touch and its peak force. Missing columns give no samples.
 std::vector<TraceSample> contact_samples(const sim::Table& table, std::span<const sim::Impact> impacts);
 
-class Trace {
-  public:
-    // Numbers of bins on the rim of the given circumference and on the beam of the given length, each >= 1.
-    Trace(std::span<const TraceSample> samples, double circumference, std::size_t rim_places, double length,
-          std::size_t beam_places);
-    void advance_to(double t);                              // includes samples at t; going back is possible
-    const std::vector<float>& rim() const { return rim_; }  // 0: never touched
-    const std::vector<float>& beam() const { return beam_; }
-
-  private:
-    std::span<const TraceSample> samples_;
-    double circumference_, length_;
-    std::vector<float> rim_, beam_;
-    std::size_t shown_ = 0;
+struct Trace {
+    std::vector<float> rim, beam;  // the largest force of each bin; 0: never touched
 };
+// Of the samples up to and at t. Numbers of bins on the rim of the given circumference and on the beam of the given
+// length, each >= 1.
+Trace trace_until(std::span<const TraceSample> samples, double t, double circumference, std::size_t rim_places,
+                  double length, std::size_t beam_places);
 
 }  // namespace beamcam::render

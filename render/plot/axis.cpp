@@ -100,22 +100,8 @@ AxisMap::AxisMap(const Axis& axis, const Extent& data, int most, const std::stri
     const std::size_t unit = label_.rfind(" / ");
     symbol_ = label_.substr(0, unit);
     if (unit != std::string::npos) base_unit_ = told_unit_ = label_.substr(unit + 3);
-    if (!axis.names.empty())
-        named(axis, most);
-    else if (log_)
-        logarithmic(axis, most);
-    else
-        linear(axis, most);
+    log_ ? logarithmic(axis, most) : linear(axis, most);
     if (!axis.ticked) ticks_.clear();
-}
-
-void AxisMap::named(const Axis& axis, int most) {
-    const std::size_t count = axis.names.size(), some = static_cast<std::size_t>(std::max(1, most)),
-                      stride = (count + some - 1) / some;
-    low_ = ends_.low = 0;
-    high_ = ends_.high = static_cast<double>(count);
-    for (std::size_t k = 0; k < count; k += stride)
-        ticks_.push_back({(static_cast<double>(k) + 0.5) / high_, axis.names[k], true, false});
 }
 
 void AxisMap::linear(const Axis& axis, int most) {

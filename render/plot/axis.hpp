@@ -31,7 +31,6 @@ struct Axis {
     bool grid = false;                         // in films: few numbers, and x has lines across the plot for ticks
     // The numbers are values in this unit, without prefix, factor or offset (linear); the first one that is written.
     std::optional<double> unit = {}, first_number = {};
-    std::vector<std::string> names = {};  // markup, in place of numbers: of the intervals 0…1, 1…2, … (linear)
 };
 
 // Least and greatest finite value; for a logarithmic axis of the positive ones.
@@ -45,7 +44,6 @@ struct Tick {
     double at = 0;      // 0…1 along the axis
     std::string label;  // markup; empty: minor
     bool major = true;
-    bool line = true;  // else the label alone
 };
 
 class AxisMap {
@@ -69,7 +67,6 @@ class AxisMap {
     std::string name() const;
 
   private:
-    void named(const Axis& axis, int most);
     void linear(const Axis& axis, int most);
     int choose_powers(const Axis& axis, double order, bool offset);
     void add_linear_ticks(const Axis& axis, int most, bool whole);

@@ -47,7 +47,7 @@ Chart::Chart(ChartContent content, const Box& box, const Box& plot, const figure
     double finest = 0;  // of the reading
     for (const figure::Plot& row : plots_) finest = std::max(finest, row.y().step() / 50);
     digits_ = std::clamp(-static_cast<int>(std::floor(std::log10(finest) + 1e-9)), 0, 6);
-    if (!windowed()) draw_whole_past(fonts);
+    if (!windowed() && !c_.past_only) draw_whole_past(fonts);
 }
 
 // Rows that would be too low are one. A row with values below a twentieth of the axis has an axis of its own.
@@ -125,7 +125,7 @@ void Chart::draw_moving(Canvas& canvas, double t, std::span<const double> readin
     if (!windowed() && t < time().low) return;
     const bool over = !windowed() && t > time().high;  // everything is past
     double from = area_.x;
-    if (!windowed() && !canvas.is_vector()) {
+    if (past_.width > 0 && !canvas.is_vector()) {
         const Box box = past_box();
         from = std::max<double>(over ? std::lround(area_.right() + 1) : past_column(t), box.x);
         canvas.image_part(past_, static_cast<int>(box.x), static_cast<int>(box.y), {0, 0, from - box.x, box.h});

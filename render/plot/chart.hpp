@@ -89,7 +89,7 @@ class Chart {
     const Palette& palette_;
     std::vector<figure::Panel> panels_;  // of the rows
     std::vector<figure::Plot> plots_;
-    Image past_;      // all curves as past, of the size of `past_box`; empty with a window
+    Image past_;      // all curves as past, of the size of `past_box`; empty with a window, or if nothing else is drawn
     int digits_ = 0;  // decimals of the reading
 };
 

@@ -67,8 +67,7 @@ class PanelRows {
         for (const Cloud& c : panel_.clouds) rows(text_or(c.label, "points"), panel_.y, c.x, c.y);
         for (const Rule& r : panel_.rules)
             rows(text_or(r.label, "line"), panel_.y, {r.vertical ? r.at : NAN}, {r.vertical ? NAN : r.at});
-        for (const Mark& m : panel_.marks) rows(text_or(m.label, "mark"), vertical(m.right), {m.x}, {m.y});
-        for (const Span& s : panel_.spans) rows(text_or(s.label, "interval"), panel_.y, {s.from, s.to}, {NAN, NAN});
+        for (const Mark& m : panel_.marks) rows(text_or(m.label, "mark"), panel_.y, {m.x}, {m.y});
         for (const Shape& s : panel_.shapes) add_shape(s);
     }
 
@@ -149,8 +148,7 @@ class CurveTable {
     static std::string key_of(const Figure& figure) {
         bool timed = true, ascending = true, same_x = true, any = false;
         for (const Panel& panel : figure.panels) {
-            if (!panel.cells.empty() || !panel.clouds.empty() || !panel.shapes.empty() || !panel.dots.empty())
-                return "";
+            if (!panel.cells.empty() || !panel.clouds.empty() || !panel.shapes.empty()) return "";
             same_x = same_x && panel.x.label == figure.panels.front().x.label;
             for (const Series& curve : panel.series) {
                 any = true;

@@ -1,4 +1,4 @@
-// A series on a page, reduced to its visible detail: a line, bands where it oscillates fast, colours, markers.
+// A series on a page, reduced to its visible detail: a line, bands where it oscillates fast, markers.
 #pragma once
 
 #include <vector>
@@ -12,22 +12,15 @@ class DrawnCurve {
     DrawnCurve(const Series& series, const Plot& plot, double grain);
 
     const Series& series() const { return *series_; }
-    const std::vector<Vec2>& points() const { return points_; }  // on the sheet
-    void draw(const PlotStyle& style, PageCanvas& on) const;
+    void draw(const PlotStyle& style, Painter& on) const;
     // Those in the plot; at its edge they extend over the frame.
     void draw_markers(const Box& plot, const PlotStyle& style, Painter& on) const;
 
   private:
-    void lighten(double grain);
-    void thin_out_tones(const std::vector<std::size_t>& kept);
-    void draw_tones(const PlotStyle& style, PageCanvas& on) const;
-    void draw_line(const PlotStyle& style, Painter& on) const;
-
     const Series* series_;
-    std::vector<Vec2> points_;
-    std::vector<std::vector<Vec2>> bands_;  // outlines of unresolved oscillations, which are not in `line_`
-    std::vector<Vec2> line_;                // of curves without values
-    std::vector<double> value_;             // colour shares, for curves with values
+    std::vector<Vec2> points_;              // on the sheet
+    std::vector<std::vector<Vec2>> bands_;  // outlines of unresolved oscillations, which are not in `points_`
+    std::vector<Color> colors_;             // of the points, if values give them
 };
 
 // The key of a series in a legend or before the name of an axis: its line and its marker.

@@ -28,7 +28,7 @@ struct Series {
     std::vector<double> dash = {};    // of films [design px]
     double weight = 1;                // of the line
     std::optional<Color> color = {};  // instead of the look's
-    std::vector<double> value = {};   // colours the curve by the panel's colour bar; same length as x
+    std::vector<double> value = {};   // colours the points by the panel's colour bar; same length as x
     std::vector<double> t = {};       // of a motion, if x is not the time: instants of the points [s], for the data
     // Of films: the area below it is filled; colour in the future; intervals of x, ascending, in which the past has the
     // colour `pale`.
@@ -45,12 +45,12 @@ struct Band {  // between two curves
     std::optional<Color> color = {};  // instead of the look's, paler
     Color faint = {};                 // of films: in the future
 };
-struct Dot {
+struct Dot {  // of films
     double x = 0, y = 0;
     Color color = {}, faint = {};  // faint: in the future
 };
-// A tick below the x axis at an instant of the past, in one of the lanes below each other, which are one if they are
-// many.
+// Of films: a tick below the x axis at an instant of the past, in one of the lanes below each other, which are one if
+// they are many.
 struct EventTick {
     double x = 0;
     Color color = {};
@@ -73,10 +73,10 @@ struct Swatch {  // an entry of the legend that is a colour
     std::string label;
     Color color;
 };
-struct Span {  // an interval of x, over the whole height
+struct Span {  // of films: an interval of x, over the whole height
     double from = 0, to = 0;
     std::string label = {};
-    Color color = rgb(0xEDEDED);
+    Color color = {};
 };
 struct Rule {  // a thin line across the panel
     double at = 0;
@@ -88,7 +88,6 @@ struct Mark {  // a point with its value
     std::string label = {};
     int look = 0;
     bool hollow = false;
-    bool right = false;
 };
 
 struct ColorBar {
@@ -99,8 +98,8 @@ struct ColorBar {
     bool root = false;       // colours follow the square root of the share, beyond 2 % of the largest
     bool operator==(const ColorBar&) const = default;
 };
-// The colour of a value by its share of the largest: −1…1 if the bar is signed, else 0…1.
-Color color_of(const ColorBar& bar, double share);
+// The colour at this place of the bar, 0…1.
+Color color_of(const ColorBar& bar, double place);
 
 // Drawn shapes of a panel without axes, in its own plane (Y up); everything must fit, proportions stay true.
 struct Shape {

@@ -10,7 +10,6 @@
 
 #include "render/draw/markup.hpp"
 #include "render/plot/ticks.hpp"
-#include "sim/base/counted.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -19,12 +18,13 @@ std::string equation(const char* symbol, const std::string& value) {
     return fmt::format("${}$\u2009=\u2009{}", symbol, value);
 }
 
-std::string contact_piece(const sim::Problem& problem) {
+std::string contact_piece(const sim::Problem& problem, Lang lang) {
     if (problem.contact.model == sim::ContactModel::restitution)
-        return "impulses, " + equation("c_{\\r{r}}", fmt::format("{:.3g}", problem.contact.restitution));
+        return phrase(lang, "impulses") + ", " +
+               equation("c_{\\r{r}}", fmt::format("{:.3g}", problem.contact.restitution));
     const std::string k = equation("K", power_text(sim::contact_stiffness(problem)) +
                                             fmt::format("\u00A0N\u2009m^{{−{:.3g}}}", contact_exponent(problem)));
-    if (problem.contact.damping == sim::DampingLaw::none) return k + ", elastic";
+    if (problem.contact.damping == sim::DampingLaw::none) return k + ", " + phrase(lang, "elastic");
     return k + ", " + equation("c_{\\r{r}}", fmt::format("{:.3g}", problem.contact.restitution));
 }
 
@@ -60,7 +60,8 @@ std::string size_piece(const sim::Beam& beam) {
 }
 
 struct FrictionPiece {
-    std::string operator()(const sim::NoFriction&) const { return "frictionless"; }
+    Lang lang;
+    std::string operator()(const sim::NoFriction&) const { return phrase(lang, "frictionless"); }
     std::string operator()(const sim::CoulombFriction& f) const {
         return equation("μ", fmt::format("{:.3g}", f.coefficient));
     }
@@ -68,26 +69,30 @@ struct FrictionPiece {
         std::string text = equation("μ", fmt::format("{:.3g}", f.coefficient));
         if (f.static_coefficient.value_or(f.coefficient) != f.coefficient)
             text += fmt::format(", $μ$_{{s}}\u2009=\u2009{:.3g}", *f.static_coefficient);
-        return text + ", stick–slip";
+        return text + ", " + phrase(lang, "stick–slip");
     }
 };
 
 // The drive of the hub; empty: free.
 struct DrivePiece {
+    Lang lang;
     SpeedUnit unit;
     std::string operator()(const sim::FreeDrive&) const { return {}; }
-    std::string operator()(const sim::ConstantTorque& d) const { return "torque " + quantity(d.value, "N\u2009m"); }
-    std::string operator()(const sim::HarmonicTorque& d) const {
-        return fmt::format("torque ±{}, {}", quantity(std::abs(d.amplitude), "N\u2009m"), quantity(d.frequency, "Hz"));
+    std::string operator()(const sim::ConstantTorque& d) const {
+        return phrase(lang, "torque {}", quantity(d.value, "N\u2009m"));
     }
-    std::string operator()(const sim::TorqueTable&) const { return "torque by table"; }
+    std::string operator()(const sim::HarmonicTorque& d) const {
+        return phrase(lang, "torque {}", "±" + quantity(std::abs(d.amplitude), "N\u2009m")) + ", " +
+               quantity(d.frequency, "Hz");
+    }
+    std::string operator()(const sim::TorqueTable&) const { return phrase(lang, "torque by table"); }
     std::string operator()(const sim::ConstantSpeed& d) const {
-        return d.speed == 0 ? "hub held" : "hub at " + turning_speed(d.speed, unit);
+        return d.speed == 0 ? phrase(lang, "hub held") : phrase(lang, "hub at {}", turning_speed(d.speed, unit));
     }
     std::string operator()(const sim::SpinUp& d) const {
-        return fmt::format("hub to {} in {}", turning_speed(d.speed, unit), quantity(d.duration, "s"));
+        return phrase(lang, "hub to {} in {}", turning_speed(d.speed, unit), quantity(d.duration, "s"));
     }
-    std::string operator()(const sim::AngleTable&) const { return "hub by table"; }
+    std::string operator()(const sim::AngleTable&) const { return phrase(lang, "hub by table"); }
 };
 
 }  // namespace
@@ -117,10 +122,10 @@ std::string power_text(double value) {
     return mantissa == "1" ? power_of_ten(exponent) : mantissa + "·" + power_of_ten(exponent);
 }
 
-std::vector<std::string> parameter_pieces(const sim::Problem& problem, SpeedUnit unit) {
+std::vector<std::string> parameter_pieces(const sim::Problem& problem, Lang lang, SpeedUnit unit) {
     std::vector<std::string> out;
     out.push_back(size_piece(problem.beam));
-    if (problem.beam.material) out.emplace_back(sim::name(*problem.beam.material));
+    if (problem.beam.material) out.push_back(phrase(lang, sim::name(*problem.beam.material)));
     if (problem.cam) {
         if (!problem.cam->profile) {
             out.push_back(equation("R", quantity(problem.cam->radius, "m")));
@@ -129,32 +134,33 @@ std::vector<std::string> parameter_pieces(const sim::Problem& problem, SpeedUnit
         if (problem.cam->speed != 0) out.push_back(equation("ω", turning_speed(problem.cam->speed, unit)));
     }
     if (problem.beam.model == sim::ModelKind::rigid)
-        out.push_back("rigid beam");
+        out.push_back(phrase(lang, "rigid beam"));
     else
-        out.push_back(fmt::format("{}, {}", sim::name(problem.beam.model), counted(problem.beam.modes, "mode")));
+        out.push_back(phrase(lang, sim::name(problem.beam.model)) + ", " +
+                      phrase(lang, problem.beam.modes == 1 ? "{} mode" : "{} modes", problem.beam.modes));
     if (std::string damping = damping_piece(problem.beam); !damping.empty()) out.push_back(std::move(damping));
     if (problem.hub.radius != 0) out.push_back(equation("a", quantity(problem.hub.radius, "m")));
     if (problem.hub.inertia != 0)
         out.push_back(equation("I_{\\r{h}}", power_text(problem.hub.inertia) + "\u00A0kg\u2009m²"));
-    if (std::string drive = std::visit(DrivePiece{unit}, problem.hub.drive); !drive.empty())
+    if (std::string drive = std::visit(DrivePiece{lang, unit}, problem.hub.drive); !drive.empty())
         out.push_back(std::move(drive));
     if (problem.gravity == 0)
-        out.emplace_back("no gravity");
+        out.push_back(phrase(lang, "no gravity"));
     else if (const double usual = sim::Problem{}.gravity; std::abs(problem.gravity - usual) > 1e-3 * usual)
         out.push_back(equation("g", power_text(problem.gravity) + "\u00A0m/s²"));
     if (problem.cam) {
-        out.push_back(contact_piece(problem));
-        out.push_back(std::visit(FrictionPiece{}, problem.contact.friction));
+        out.push_back(contact_piece(problem, lang));
+        out.push_back(std::visit(FrictionPiece{lang}, problem.contact.friction));
         if (const double offset = sim::contact_offset(problem); offset > 0)
-            out.push_back("face offset " + quantity(offset, "m"));
+            out.push_back(phrase(lang, "face offset {}", quantity(offset, "m")));
     }
     return out;
 }
 
-std::vector<std::string> common_pieces(const std::vector<const sim::Problem*>& problems, SpeedUnit unit) {
-    std::vector<std::string> out = parameter_pieces(*problems.front(), unit);
+std::vector<std::string> common_pieces(const std::vector<const sim::Problem*>& problems, Lang lang, SpeedUnit unit) {
+    std::vector<std::string> out = parameter_pieces(*problems.front(), lang, unit);
     for (const sim::Problem* other : problems) {
-        const std::vector<std::string> its = parameter_pieces(*other, unit);
+        const std::vector<std::string> its = parameter_pieces(*other, lang, unit);
         std::erase_if(out, [&](const std::string& piece) { return std::ranges::find(its, piece) == its.end(); });
     }
     return out;
@@ -168,14 +174,14 @@ bool steady_speed(const std::vector<double>& speeds) {
     return std::ranges::all_of(speeds, [&](double speed) { return speed == 0 || same_speed(speed, fastest); });
 }
 
-std::string speed_text(double speed, bool steady) {
-    if (speed == 0) return "frozen";
+std::string speed_text(double speed, bool steady, Lang lang) {
+    if (speed == 0) return phrase(lang, "frozen");
     if (std::abs(speed - 1) < (steady ? 0.005 : 0.05)) return {};
     const auto rounded = [](double value, int digits) {  // without an exponent
         const double unit = ten_to(static_cast<int>(std::floor(std::log10(value))) + 1 - digits);
         return std::round(value / unit) * unit;
     };
-    if (speed > 1) return fmt::format("{:.7g}× speed", rounded(speed, 2));
+    if (speed > 1) return phrase(lang, "{} speed", fmt::format("{:.7g}×", rounded(speed, 2)));
     double slower = 1 / speed;
     const double whole = std::round(slower);
     if (same_speed(1 / whole, speed))
@@ -183,17 +189,17 @@ std::string speed_text(double speed, bool steady) {
     else if (steady && speed < 0.01)
         slower = rounded(slower, 3);
     else if (steady)
-        return fmt::format("{:.3g}× speed", speed);
+        return phrase(lang, "{} speed", fmt::format("{:.3g}×", speed));
     else
         slower = slower < 2 ? 1.5 : round_down_125(slower);
-    return slower == 1.5 ? "2/3 speed" : fmt::format("1/{:.7g} speed", slower);
+    return phrase(lang, "{} speed", slower == 1.5 ? "2/3" : fmt::format("1/{:.7g}", slower));
 }
 
-std::string widest_speed_text(const std::vector<double>& speeds) {
+std::string widest_speed_text(const std::vector<double>& speeds, Lang lang) {
     std::string widest;
     const bool steady = steady_speed(speeds);
     for (double speed : speeds)
-        if (std::string text = speed_text(speed, steady); text.size() > widest.size()) widest = std::move(text);
+        if (std::string text = speed_text(speed, steady, lang); text.size() > widest.size()) widest = std::move(text);
     return widest;
 }
 

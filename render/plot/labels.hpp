@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "render/plot/lang.hpp"
 #include "sim/problem/problem.hpp"
 
 namespace beamcam::render {
@@ -14,20 +15,20 @@ double factor_of(SpeedUnit unit);                           // from rad/s
 const char* name_of(SpeedUnit unit);                        // "°/s"
 
 // Pieces of the parameter line, most important first: "L = 1 m", "R = 100 mm", "2 modes", …
-std::vector<std::string> parameter_pieces(const sim::Problem& problem, SpeedUnit unit = {});
+std::vector<std::string> parameter_pieces(const sim::Problem& problem, Lang lang = {}, SpeedUnit unit = {});
 // The pieces that all problems share.
-std::vector<std::string> common_pieces(const std::vector<const sim::Problem*>& problems, SpeedUnit unit);
+std::vector<std::string> common_pieces(const std::vector<const sim::Problem*>& problems, Lang lang, SpeedUnit unit);
 
 // "0.5 rad/s", "−300 rpm": without SI prefixes, with three digits. `speed` in rad/s.
 std::string turning_speed(double speed, SpeedUnit unit);
 
 // Of a frame: "1/50 speed", "2× speed", "0.524× speed", "frozen"; empty at real time. `steady`: of a film at one speed;
 // otherwise changing speeds are rounded to simple fractions.
-std::string speed_text(double speed, bool steady);
+std::string speed_text(double speed, bool steady, Lang lang = {});
 // Whether a film runs at one speed, apart from freezes.
 bool steady_speed(const std::vector<double>& speeds);
 // The longest of the texts, for which a film reserves room.
-std::string widest_speed_text(const std::vector<double>& speeds);
+std::string widest_speed_text(const std::vector<double>& speeds, Lang lang);
 
 // The format of instants: unit, and enough decimals to distinguish neighbouring frames.
 struct TimeFormat {

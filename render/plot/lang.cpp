@@ -2,19 +2,12 @@
 
 #include <algorithm>
 #include <iterator>
-#include <optional>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 namespace beamcam::render {
 namespace {
 
-constexpr std::string_view kHole = "{}";  // in a phrase: any text without a separator
-constexpr std::string_view kSeparators[] = {" · ", ": ", ", "};
-
-// The same number of holes in both, in the same order, or with numbers: {0}, {1}. The first phrase that is the whole
-// text counts.
+// The same number of holes in both, in the same order, or with numbers: {0}, {1}.
 struct Phrase {
     std::string_view english, chinese;
 };
@@ -38,7 +31,8 @@ constexpr Phrase kPhrases[] = {
     {"after {}", "此前 {}"},
     {"lifts off after {} and {}", "历时 {}、{}后分离"},
     {"lifts off after {}", "历时 {} 后分离"},
-    {"energy {} at the touch", "能量：接触时 {}"},
+    {"energy {}", "能量：{}"},
+    {"{} at the touch", "接触时 {}"},
     {"{} from the cam", "来自凸轮 {}"},
     {"{} from the drive", "来自驱动 {}"},
     {"{} from the fall", "来自下落 {}"},
@@ -51,11 +45,9 @@ constexpr Phrase kPhrases[] = {
     {"{} impacts", "{} 次冲击"},
     {"{} impact", "{} 次冲击"},
     {"stays in contact from {} on", "自 {} 起保持接触"},
-    {"heights in {}", "高度单位 {}"},
-    {"{} against widths", "{}（相对水平方向）"},
     {"paler: $θ$ not reproducible", "浅色：$θ$ 不能重现"},
-    {"paler: $θ$ not reproducible after {}", "浅色：{} 之后 $θ$ 不能重现"},
     {"paler: $θ$ not reproducible {}", "浅色：{} $θ$ 不能重现"},
+    {"from {} on", "{} 之后"},
     {"bends beyond {}", "挠曲超出 {}"},
     {"inextensible elastica", "不可伸长弹性线"},
     {"second-order", "二阶模型"},
@@ -97,6 +89,7 @@ constexpr Phrase kPhrases[] = {
     {"potential", "势能"},
     {"kinetic", "动能"},
     {"bending", "弯曲能"},
+    {"spring", "弹簧能"},
     {"contact", "接触能"},
     {"Energy", "能量"},
     {"lost", "耗散"},
@@ -217,46 +210,6 @@ constexpr Phrase kPhrases[] = {
     {"unsettled", "未定"},
 };
 
-// The texts in the holes if the phrase is the whole text.
-std::optional<std::vector<std::string_view>> match(std::string_view phrase, std::string_view text) {
-    std::vector<std::string_view> found;
-    for (std::size_t hole = 0; (hole = phrase.find(kHole)) != std::string_view::npos;) {
-        const std::string_view before = phrase.substr(0, hole);
-        if (!text.starts_with(before)) return std::nullopt;
-        text.remove_prefix(before.size());
-        phrase.remove_prefix(hole + kHole.size());
-        const std::string_view after = phrase.substr(0, phrase.find(kHole));
-        const std::size_t end = after.empty() ? text.size() : text.find(after);
-        if (end == 0 || end == std::string_view::npos) return std::nullopt;
-        found.push_back(text.substr(0, end));
-        for (const std::string_view separator : kSeparators)
-            if (found.back().find(separator) != std::string_view::npos) return std::nullopt;
-        text.remove_prefix(end);
-    }
-    return text == phrase ? std::optional(found) : std::nullopt;
-}
-
-std::string in_chinese(std::string_view text) {
-    for (const auto& [english, chinese] : kPhrases) {
-        const auto found = match(english, text);
-        if (!found) continue;
-        std::string out(chinese);
-        std::size_t at = 0;
-        for (const std::string_view each : *found) {
-            const std::string in_hole = in_chinese(each);
-            at = out.find(kHole, at);
-            out.replace(at, kHole.size(), in_hole);
-            at += in_hole.size();
-        }
-        return out;
-    }
-    for (const std::string_view separator : kSeparators)
-        if (const std::size_t at = text.find(separator); at != std::string_view::npos)
-            return in_chinese(text.substr(0, at)) + std::string(separator) +
-                   in_chinese(text.substr(at + separator.size()));
-    return std::string(text);
-}
-
 }  // namespace
 
 std::string_view translated(Lang lang, std::string_view english) {
@@ -264,7 +217,5 @@ std::string_view translated(Lang lang, std::string_view english) {
     const auto found = std::ranges::find(kPhrases, english, &Phrase::english);
     return found == std::end(kPhrases) ? english : found->chinese;
 }
-
-std::string in(Lang lang, std::string text) { return lang == Lang::en ? std::move(text) : in_chinese(text); }
 
 }  // namespace beamcam::render

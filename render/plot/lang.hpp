@@ -23,8 +23,4 @@ std::string phrase(Lang lang, std::string_view english, const Values&... values)
         return fmt::format(fmt::runtime(text), values...);
 }
 
-// Translates an English text of films, which is a phrase of the table in lang.cpp or several with separators between
-// them; other text stays as it is.
-std::string in(Lang lang, std::string english);
-
 }  // namespace beamcam::render

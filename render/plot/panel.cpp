@@ -14,21 +14,13 @@ PanelDrawing::PanelDrawing(const Panel& panel, const PlotStyle& style, PageCanva
       style_(style),
       sheet_(sheet),
       plot_(panel, style, what, lowest),
-      names_(panel, style, sheet, lowest),
-      legend_(panel, style, sheet, legend) {
+      names_(panel, style, sheet, lowest, legend) {
     place({0, 0, width, height});
-}
-
-Margins PanelDrawing::margins() const {
-    Margins m = names_.margins();
-    m.top += legend_.height() - (has_letter_in_legend() ? names_.titles_height() : 0);
-    return m;
 }
 
 void PanelDrawing::place(const Box& box) {
     plot_.place(sheet_, box);
     names_.fit(plot_, box.w, box.h);
-    legend_.fit(box.w - (has_letter_in_legend() ? names_.letter_width() : 0));
 }
 
 // ---- data ----------------------------------------------------------------------------------------
@@ -38,13 +30,7 @@ void PanelDrawing::draw(const Box& bar_beside) const {
     draw_data();
     label_rules();
     label_marks();
-    const double top = plot_.box().y - margins().top;
-    if (has_letter_in_legend()) {
-        legend_.draw({plot_.box().x + names_.letter_width(), top});
-        return names_.draw(plot_, top + legend_.baseline(), true, bar_beside);
-    }
-    legend_.draw({plot_.box().x, top + names_.titles_height()});
-    names_.draw(plot_, top + style_.letters, !legend_.empty(), bar_beside);
+    names_.draw(plot_, bar_beside);
 }
 
 std::array<Vec2, 2> PanelDrawing::ends(const Rule& r) const {
@@ -71,13 +57,6 @@ std::vector<Rule> PanelDrawing::distinct_rules() const {
 
 void PanelDrawing::draw_backgrounds() const {
     for (const Cells& cells : panel_.cells) draw_cells(cells, plot_, sheet_);
-    for (const Span& s : panel_.spans) {
-        const double a = plot_.at(s.from, 0).x, b = plot_.at(s.to, 0).x;
-        // At least a visible width.
-        const double width = std::max(std::abs(b - a), 0.4);
-        sheet_.rectangle({std::min(a, b), plot_.box().y, width, plot_.box().h});
-        sheet_.fill(s.color);
-    }
     plot_.draw_bands(sheet_);
     for (const Rule& r : distinct_rules())
         sheet_.line(ends(r)[0], ends(r)[1],
@@ -102,10 +81,9 @@ void PanelDrawing::draw_data() const {
     plot_.draw_x_axis(sheet_);
     plot_.draw_y_axis(sheet_);
     plot_.draw_frame(sheet_);
-    plot_.draw_dots_and_events(sheet_);
     draw_markers(false);
     for (const Mark& m : panel_.marks) {
-        const Vec2 p = plot_.at(m.x, m.y, m.right);
+        const Vec2 p = plot_.at(m.x, m.y);
         if (!inside(plot_.box(), p, 1)) continue;
         draw_marker(sheet_, style_, look(m.look).marker, p, 1.1 * style_.marker, look(m.look).color, m.hollow);
     }
@@ -117,7 +95,7 @@ void PanelDrawing::draw_data() const {
 void PanelDrawing::label_marks() const {
     const Box within = plot_.box().inset(style_.tick);
     for (const Mark& m : panel_.marks) {
-        const Vec2 p = plot_.at(m.x, m.y, m.right);
+        const Vec2 p = plot_.at(m.x, m.y);
         if (m.label.empty() || !inside(plot_.box(), p, 1)) continue;
         TextStyle l = style_.tick_numbers();
         l.color = look(m.look).color, l.halo = kWhite;

@@ -1,11 +1,10 @@
-// A panel on a page: a plot with its legend above it, and labels at fixed places beside marks and rules.
+// A panel on a page: a plot with its names, and labels at fixed places beside marks and rules.
 #pragma once
 
 #include <array>
 #include <string>
 #include <vector>
 
-#include "render/plot/legend.hpp"
 #include "render/plot/panel_names.hpp"
 
 namespace beamcam::render::figure {
@@ -17,16 +16,14 @@ class PanelDrawing {
     PanelDrawing(const Panel& panel, const PlotStyle& style, PageCanvas& sheet, double width, double height,
                  bool lowest, bool legend, const std::string& what);
 
-    Margins margins() const;  // room that numbers, labels, colour bar and legend need around the plot
-    double width_of_legend() const { return legend_.least_width(); }
+    Margins margins() const { return names_.margins(); }  // room that names and numbers need around the plot
+    double width_of_legend() const { return names_.width_of_legend(); }
     // Sets the plot; the margins may change with the numbers and with the lines of labels.
     void place(const Box& plot);
     // `bar_beside`: the colour bar is to its right and as high; empty: another panel shows the bar.
     void draw(const Box& bar_beside) const;
 
   private:
-    // The legend's first row is behind a letter that has no title.
-    bool has_letter_in_legend() const { return panel_.title.empty() && !panel_.letter.empty() && !legend_.empty(); }
     std::array<Vec2, 2> ends(const Rule& rule) const;
     std::vector<Rule> distinct_rules() const;
     void draw_backgrounds() const;
@@ -39,7 +36,6 @@ class PanelDrawing {
     PageCanvas& sheet_;
     Plot plot_;
     PanelNames names_;
-    LegendAbove legend_;
 };
 
 // A panel of shapes, without axes, within the box.

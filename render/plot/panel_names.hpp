@@ -1,4 +1,5 @@
-// The texts around a plot on a page: labels of the axes, common factors, letter and title, and the colour bar.
+// What surrounds a plot on a page: labels of the axes, common factors, letter and title, the legend in rows above the
+// plot, and the colour bar.
 #pragma once
 
 #include <algorithm>
@@ -15,23 +16,36 @@ struct Margins {
 
 class PanelNames {
   public:
-    // `lowest`: this panel shows the label of x.
-    PanelNames(const Panel& panel, const PlotStyle& style, PageCanvas& sheet, bool lowest)
-        : panel_(panel), style_(style), sheet_(sheet), lowest_(lowest) {}
+    // `lowest`: this panel shows the label of x; `legend`: it shows the legend if it has one.
+    PanelNames(const Panel& panel, const PlotStyle& style, PageCanvas& sheet, bool lowest, bool legend);
 
     // For a plot of about this size, with the ticks chosen for it.
     void fit(const Plot& plot, double width, double height);
-    Margins margins() const { return margins_; }             // room that numbers, texts and colour bar need
-    double titles_height() const { return titles_height_; }  // of letter and title above the plot; 0: none
-    double letter_width() const;                             // with the space behind it; 0: none
-    // `top`: baseline of letter and title; they are directly above the plot if nothing else is.
-    void draw(const Plot& plot, double top, bool legend_above, const Box& bar_beside) const;
+    Margins margins() const { return margins_; }  // room that numbers, texts, legend and colour bar need
+    double width_of_legend() const { return widest_entry_; }
+    // `bar_beside`: the colour bar is to its right and as high; empty: another panel shows the bar.
+    void draw(const Plot& plot, const Box& bar_beside) const;
 
   private:
     struct Label {
         std::vector<std::string> lines;
         double beside = 0;  // height of the lines beside the first
     };
+    struct Entry {  // of the legend
+        std::string label;
+        const Series* series;  // null: a block of a colour, or dots
+        Color color;
+        bool dots;
+        double width;
+        Vec2 at;  // of its left end and upper edge, in the legend
+    };
+    void arrange_legend(double width);
+    double legend_height() const;  // with the gap to the plot; 0 without entries
+    void draw_sample_of(const Entry& entry, Vec2 left, double width) const;
+    void draw_legend(Vec2 top_left) const;
+    // The legend's first row is behind a letter that has no title.
+    bool has_letter_in_legend() const { return panel_.title.empty() && !panel_.letter.empty() && !entries_.empty(); }
+    double letter_width() const;  // with the space behind it; 0: none
     Label broken(std::string label, double room) const;
     TextStyle letter_style() const;
     Margins room_around(const Plot& plot) const;
@@ -52,6 +66,8 @@ class PanelNames {
     Label x_, y_, right_;
     std::vector<std::string> title_;
     double widest_y_ = 0, widest_right_ = 0, widest_bar_ = 0, below_ = 0, titles_height_ = 0;
+    std::vector<Entry> entries_;
+    double widest_entry_ = 0;
     double beyond_left_ = 0, beyond_right_ = 0;  // of the plot, reached by the numbers below it
     Margins margins_;
 };

@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace beamcam::render::figure {
 namespace {
-
-constexpr double kRowOfNames = 1.3;  // distance of names below each other, in letters
 
 struct Extents {
     Extent x, y, right, color;
@@ -29,7 +26,7 @@ Extents extents_of(const Panel& panel) {
     for (const Band& b : panel.bands) add(b.x, b.low), add(b.x, b.high);
     for (const Cells& c : panel.cells) add(c.x, c.y);
     for (const Cloud& c : panel.clouds) add(c.x, c.y);
-    for (const Mark& m : panel.marks) add({&m.x, 1}, {&m.y, 1}, m.right);
+    for (const Mark& m : panel.marks) add({&m.x, 1}, {&m.y, 1});
     return all;
 }
 
@@ -62,7 +59,7 @@ void draw_ticks(Painter& painter, std::span<const Tick> ticks, const Box& plot, 
         const Vec2 at =
             below ? Vec2{along, first ? plot.y : plot.bottom()} : Vec2{first ? plot.x : plot.right(), along};
         const double in = (first ? 1 : -1) * (t.major ? style.major : style.minor);
-        if (t.line && in != 0) painter.line(at, at + (below ? Vec2{0, in} : Vec2{in, 0}), style.pen);
+        if (in != 0) painter.line(at, at + (below ? Vec2{0, in} : Vec2{in, 0}), style.pen);
         if (style.numbers && !t.label.empty()) painter.text(at + style.beside, t.label, *style.numbers);
     }
 }
@@ -104,13 +101,7 @@ void Plot::fit_x(const Painter& on, const Axis& axis, const Extent& data) {
     const std::string what = what_ + ", horizontal axis";
     const TextStyle numbers = style_->tick_numbers();
     if (!style_->palette) {
-        double widest_name = 1;
-        for (const std::string& name : axis.names)
-            widest_name = std::max(widest_name, on.measure(name, numbers).w + style_->gap);
-        const int across = std::clamp(static_cast<int>(width_ / (4.2 * style_->numbers)), 3, 9);
-        turned_names_ = static_cast<double>(axis.names.size()) * widest_name > width_;
-        const double room = turned_names_ ? kRowOfNames * style_->numbers : widest_name;
-        x_.emplace(axis, data, axis.names.empty() ? across : static_cast<int>(width_ / room), what);
+        x_.emplace(axis, data, std::clamp(static_cast<int>(width_ / (4.2 * style_->numbers)), 3, 9), what);
         return;
     }
     // As many numbers as leave room between each other, for the name of the axis if they do not move.
@@ -132,8 +123,7 @@ void Plot::fit(const Painter& on, double width, double height) {
     const int up = style_->palette
                        ? std::clamp(static_cast<int>(height / (40 * style_->unit)), 2, panel_->y.grid ? 6 : 5)
                        : std::clamp(static_cast<int>(height / (2.3 * style_->numbers)), 3, 8);
-    y_.emplace(panel_->y, ey, panel_->y.names.empty() ? up : static_cast<int>(height / (kRowOfNames * style_->numbers)),
-               what_ + ", vertical axis");
+    y_.emplace(panel_->y, ey, up, what_ + ", vertical axis");
     right_.reset();
     if (panel_->right) right_.emplace(*panel_->right, er, up, what_ + ", right axis");
     bar_.reset();
@@ -156,17 +146,13 @@ Vec2 Plot::at(double x, double y, bool right) const {
 
 // ---- axes and frame -------------------------------------------------------------------------------------
 
-Vec2 Plot::size_below(const Painter& on, const std::string& label) const {
-    const double width = on.measure(label, style_->tick_numbers()).w, height = on.cap_height(style_->numbers);
-    return turned_names_ ? Vec2{height, width} : Vec2{width, height};
-}
-
 double Plot::drop(const Painter& on) const {
     if (!lowest_ || !panel_->x.numbered) return 0;
     double out = 0;
     const auto corner = [&](const std::optional<AxisMap>& vertical, bool left) {
         for (const Tick& below : x_->ticks()) {
-            const double out_of_plot = 0.5 * size_below(on, below.label).x - width_ * (left ? below.at : 1 - below.at);
+            const double out_of_plot =
+                0.5 * on.measure(below.label, style_->tick_numbers()).w - width_ * (left ? below.at : 1 - below.at);
             if (below.label.empty() || out_of_plot < 0.6 * style_->gap) continue;
             for (const Tick& beside : vertical->ticks())
                 if (!beside.label.empty())
@@ -185,10 +171,6 @@ void Plot::draw_page_ticks(Painter& on, const AxisMap& axis, const Box& box, Sid
     if (labelled) style.numbers = style_->tick_numbers();
     if (labelled && side == Side::bottom) {
         style.numbers->align = HAlign::centre, style.numbers->valign = VAlign::top;
-        if (turned_names_) {
-            style.numbers->turned = std::numbers::pi / 2;
-            style.numbers->align = HAlign::right, style.numbers->valign = VAlign::middle;
-        }
         style.beside = {0, style_->gap + drop(on)};
     } else if (labelled) {
         style.numbers->align = side == Side::left ? HAlign::right : HAlign::left;

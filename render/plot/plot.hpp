@@ -5,6 +5,7 @@
 // film.
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
@@ -44,14 +45,16 @@ class Plot {
     // Rounding decides to which column of pixels a point belongs: each medium keeps its own order of multiplication.
     double along_x(double x) const { return box_.x + (style_->palette ? x_->place(x, box_.w) : box_.w * x_->place(x)); }
     double along_y(double y) const { return box_.bottom() - box_.h * y_->place(y); }
-    double color_share(double value) const { return bar_ ? bar_->place(value) : 0; }
+    // By the colour bar; none for NaN, and for a value <= 0 on a log bar.
+    std::optional<Color> color_at(double value) const {
+        const double place = bar_->place(value);
+        return std::isnan(place) ? std::nullopt : std::optional(color_of(*panel_->color_bar, place));
+    }
     const AxisMap& x() const { return *x_; }
     const AxisMap& y() const { return *y_; }
     const std::optional<AxisMap>& right() const { return right_; }
     const std::optional<AxisMap>& bar() const { return bar_; }
 
-    // The room of a number or a name below the plot. Names that have no room beside each other are turned.
-    Vec2 size_below(const Painter& on, const std::string& label) const;
     // How much the numbers below the plot are lowered so that they do not touch those beside it at a corner.
     double drop(const Painter& on) const;
     // Of films: from the axis down to the baseline of its numbers [px].
@@ -64,17 +67,16 @@ class Plot {
                          double minor) const;
 
     void draw_bands(Painter& on, const Interval& part = {}) const;
-    void draw_dots_and_events(Painter& on, const Interval& part = {}) const;
     void draw_data(Painter& on, const Interval& part) const;  // these, and spans and curves; films
 
   private:
     void fit_x(const Painter& on, const Axis& axis, const Extent& data);
+    void draw_dots_and_events(Painter& on, const Interval& part) const;
     void draw_spans(Painter& on, const Interval& part, bool names) const;
     void draw_curve(Painter& on, const Series& curve, const Interval& part) const;
 
     const Panel* panel_;
     const PlotStyle* style_;
-    bool turned_names_ = false;
     bool lowest_, moves_ = false;  // moves: the numbers of x
     std::string what_;
     std::optional<AxisMap> x_, y_, right_, bar_;

@@ -147,19 +147,15 @@ std::vector<Vec2> outline(const Envelope& envelope, std::span<const Vec2> points
     return all;
 }
 
-std::vector<std::size_t> without(const std::vector<Envelope>& envelopes, std::size_t count, bool keep_extremes) {
-    std::vector<std::size_t> all;
+std::vector<Vec2> without(const std::vector<Envelope>& envelopes, std::span<const Vec2> points) {
+    std::vector<Vec2> all;
     std::size_t next = 0;
     for (const Envelope& envelope : envelopes) {
-        for (; next <= envelope.first; ++next) all.push_back(next);
-        for (std::size_t c = 0; keep_extremes && c < envelope.least.size(); ++c) {
-            all.push_back(std::min(envelope.least[c], envelope.most[c]));
-            all.push_back(std::max(envelope.least[c], envelope.most[c]));
-        }
-        if (!keep_extremes) all.push_back(kBreak);
+        for (; next <= envelope.first; ++next) all.push_back(points[next]);
+        all.push_back({std::nan(""), std::nan("")});
         next = envelope.last;
     }
-    for (; next < count; ++next) all.push_back(next);
+    for (; next < points.size(); ++next) all.push_back(points[next]);
     return all;
 }
 

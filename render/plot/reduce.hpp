@@ -31,8 +31,7 @@ std::vector<Envelope> envelopes(std::span<const Vec2> points, double column);
 
 // Its outline: along the crests, back along the troughs.
 std::vector<Vec2> outline(const Envelope& envelope, std::span<const Vec2> points);
-// The indices of the curve between the envelopes, with a break for each envelope, or its extremes if `keep_extremes`.
-std::vector<std::size_t> without(const std::vector<Envelope>& envelopes, std::size_t count, bool keep_extremes);
-inline constexpr std::size_t kBreak = static_cast<std::size_t>(-1);  // among the indices of `without`
+// The curve between the envelopes, with a break for each envelope.
+std::vector<Vec2> without(const std::vector<Envelope>& envelopes, std::span<const Vec2> points);
 
 }  // namespace beamcam::render

@@ -59,19 +59,16 @@ std::optional<Panel> first_collision(const sim::Collision& c, double end, const 
     const Measure duration = measure_of("s", last - c.t_start);
     const auto &time = column(t, ChannelKind::t), &force = column(t, ChannelKind::contact_force),
                &x = column(t, ChannelKind::contact_x);
-    Series s{.weight = 1.8};
-    int touching = 0;
+    Series s{.line = false, .every_point = true};
     for (std::size_t i = 0; i < time.size(); ++i) {
-        if (time[i] < c.t_start || time[i] > last) continue;
-        const bool touches = force[i] > 0 && std::isfinite(x[i]);
+        if (time[i] < c.t_start || time[i] > last || !(force[i] > 0) || !std::isfinite(x[i])) continue;
         const double since = (time[i] - c.t_start) * duration.factor;
         // The end of a step is sampled again as the beginning of the next one.
-        if (!s.x.empty() && s.x.back() == since && (!touches || std::isfinite(s.y.back()))) continue;
-        s.add(since, touches ? x[i] * factor : std::nan(""));
-        s.value.push_back(touches ? force[i] : std::nan(""));
-        touching += touches;
+        if (!s.x.empty() && s.x.back() == since) continue;
+        s.add(since, x[i] * factor);
+        s.value.push_back(force[i]);
     }
-    if (touching < 2) return std::nullopt;
+    if (s.x.size() < 2) return std::nullopt;
     Panel panel{.title = phrase(lang, "first collision"),
                 .x = {.label = axis_label("($t$ − $t_{1}$)", duration.unit)},
                 .series = {std::move(s)},

@@ -54,7 +54,8 @@ Panel kymograph_panel(const std::vector<double>& v, const ShownPoses& shown, dou
     for (int i = 0; i <= kStations; ++i) cells.y.push_back(length * i / kStations);
     for (std::size_t i = 0; i < kStations; ++i)
         for (std::size_t k = 0; k < kColumns; ++k) {
-            cells.colors.push_back(color_of(bar, v[k * kStations + i] / range));
+            const double share = v[k * kStations + i] / range;
+            cells.colors.push_back(color_of(bar, is_signed ? 0.5 * (share + 1) : share));
             cells.values.push_back(v[k * kStations + i] / prefix.factor);
         }
     return {.x = {.label = "$t$ / s", .tight = true},

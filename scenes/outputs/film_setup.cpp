@@ -18,8 +18,8 @@ namespace {
 // "10⁻⁸", "2 × 10⁻⁹".
 std::string plain_digit(double value) { return render::to_plain(one_digit(value)); }
 
-std::string beyond_model(const sim::Problem& problem) {
-    return fmt::format("bends beyond {}", sim::name(problem.beam.model));
+std::string beyond_model(const sim::Problem& problem, render::Lang lang) {
+    return phrase(lang, "bends beyond {}", phrase(lang, sim::name(problem.beam.model)));
 }
 
 // Until when curves are paler where θ is not reproducible: they are those of strip charts.
@@ -47,17 +47,17 @@ render::Motion motion_of(const MotionRequest& shown, sim::Result& result, double
 }
 
 // The intervals of a single motion; compared motions have different ones.
-std::string paler_note(const render::FilmSetup& setup) {
-    std::string note;
+std::string paler_note(const render::FilmSetup& setup, render::Lang lang) {
+    const auto is_paler = [](const render::Motion& motion) { return !motion.unreliable.empty(); };
+    if (std::ranges::any_of(setup.others, is_paler) || (is_paler(setup) && !setup.others.empty()))
+        return phrase(lang, "paler: $θ$ not reproducible");
+    std::string when;
     for (const render::Range& lost : setup.unreliable) {
-        note += note.empty() ? " " : ", ";
-        note += std::isinf(lost.high) ? fmt::format("after {:.3g} s", lost.low)
+        if (!when.empty()) when += ", ";
+        when += std::isinf(lost.high) ? phrase(lang, "from {} on", fmt::format("{:.3g} s", lost.low))
                                       : fmt::format("{:.3g}–{:.3g} s", lost.low, lost.high);
     }
-    if (!setup.others.empty()) note.clear();
-    const bool any = !setup.unreliable.empty() ||
-                     std::ranges::any_of(setup.others, [](const auto& motion) { return !motion.unreliable.empty(); });
-    return any ? "paler: $θ$ not reproducible" + note : std::string();
+    return when.empty() ? when : phrase(lang, "paler: $θ$ not reproducible {}", when);
 }
 
 std::vector<render::FilmData> data_of(const Scene& scene) {
@@ -74,14 +74,14 @@ void add_motions(const Plan& plan, const PlannedPictures& p, const Scene& scene,
                  render::FilmSetup& setup) {
     for (std::size_t i = 0; i < p.motions.size(); ++i) {
         const MotionRequest& shown = plan.motions[p.motions[i]];
-        if (results[i]->beyond_model) setup.warning = beyond_model(shown.problem);
+        if (results[i]->beyond_model) setup.warning = beyond_model(shown.problem, p.view.lang);
         render::Motion motion = motion_of(shown, *results[i], paler_until(p, scene));
         if (i == 0)
             static_cast<render::Motion&>(setup) = std::move(motion);
         else
             setup.others.push_back(std::move(motion));
     }
-    const std::string paler = paler_note(setup);
+    const std::string paler = paler_note(setup, p.view.lang);
     if (!setup.warning.empty() && !paler.empty()) setup.warning += " · ";
     setup.warning += paler;
 }
@@ -92,7 +92,7 @@ std::string accuracy_note(const sim::Problem& problem, const sim::Result& result
     std::string note = fmt::format("rtol {}", plain_digit(problem.solver.rtol));
     if (result.energy_scale > 0 && result.energy_residual_max > 0)
         note += fmt::format(" · energy closes to {}", plain_digit(result.energy_residual_max / result.energy_scale));
-    if (result.beyond_model) note += " · " + beyond_model(problem);
+    if (result.beyond_model) note += " · " + beyond_model(problem, render::Lang::en);
     return note;
 }
 

@@ -127,7 +127,6 @@ void draw(const PlannedPictures& p, const render::Film& film, PictureSink& sink,
     context.work.font_sets += counts.font_sets;
     context.work.gl_contexts += counts.gl_contexts;
     context.work.bodies_drawn += counts.bodies_drawn;
-    context.times.read_back += counts.read_back;
 }
 
 }  // namespace beamcam::scenes

@@ -58,10 +58,10 @@ void compute_motions(RunContext& context, const SceneRuns& all) {
 void report_times_and_work(const RunContext& context) {
     const Times& times = context.times;
     output::print_message(
-        "time: {:.2f} s in total; motion {:.2f} s, drawing {:.2f} s ({}; read back {:.2f} s), conversion {:.2f} s, "
+        "time: {:.2f} s in total; motion {:.2f} s, drawing {:.2f} s ({}), conversion {:.2f} s, "
         "encoding {:.2f} s, other files {:.2f} s\n",
-        seconds_since(context.started), times.simulate, times.draw, counted(times.threads, "thread"), times.read_back,
-        times.convert, times.encode, times.write);
+        seconds_since(context.started), times.simulate, times.draw, counted(times.threads, "thread"), times.convert,
+        times.encode, times.write);
     const Work& w = context.work;
     output::print_message(
         "work: integrations={} steps={} rhs_evaluations={} gap_evaluations={} sweep_points={} font_sets={}"

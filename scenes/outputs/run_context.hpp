@@ -15,7 +15,7 @@ namespace beamcam::scenes {
 
 // Times of the stages [s], for -v; drawing is summed over threads.
 struct Times {
-    double simulate = 0, draw = 0, read_back = 0, convert = 0, encode = 0, write = 0;
+    double simulate = 0, draw = 0, convert = 0, encode = 0, write = 0;
     int threads = 0;  // for drawing
 };
 

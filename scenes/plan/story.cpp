@@ -10,12 +10,11 @@
 #include "render/plot/lang.hpp"
 #include "render/plot/ticks.hpp"
 #include "scenes/scene/time_map.hpp"
-#include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
-using render::LayoutNode, render::PanelKind, render::PanelSpec, render::quantity;
+using render::Lang, render::LayoutNode, render::PanelKind, render::PanelSpec, render::phrase, render::quantity;
 using sim::ChannelKind;
 
 constexpr double kShown = 2.5, kFade = 0.2;  // of captions [s of the film]
@@ -32,13 +31,10 @@ double speed_for(double time, double seconds) {
     return exact / below < above / exact ? below : above;
 }
 
-// Appends a caption in the language of the film.
+// Appends a caption.
 void tell(PictureOutput& film, double t, std::string text, double freeze = 0) {
-    film.span.events.push_back({.at = at_time(t),
-                                .freeze = freeze,
-                                .text = render::in(film.view.lang, std::move(text)),
-                                .show = kShown,
-                                .fade = kFade});
+    film.span.events.push_back(
+        {.at = at_time(t), .freeze = freeze, .text = std::move(text), .show = kShown, .fade = kFade});
 }
 
 LayoutNode leaf(PanelSpec spec, double share = 1) { return {.share = share, .panel = std::move(spec)}; }
@@ -50,11 +46,16 @@ LayoutNode group(LayoutNode::Kind kind, std::vector<LayoutNode> parts, double sh
 void tell_beginning(PictureOutput& film, const sim::Problem& problem) {
     const bool free = std::holds_alternative<sim::FreeDrive>(problem.hub.drive) && !problem.hub.spring;
     const bool falls = free && problem.gravity > 0 && problem.initial.angular_velocity == 0;
-    if (falls && film.span.from == 0) tell(film, 0, "falls under gravity");
+    if (falls && film.span.from == 0) tell(film, 0, phrase(film.view.lang, "falls under gravity"));
 }
 
-std::string touch_of(const sim::Collision& c) {
-    return fmt::format("touches {} from the hub, at {}", quantity(c.x, "m"), quantity(std::abs(c.v_n_before), "m/s"));
+std::string touch_of(const sim::Collision& c, Lang lang) {
+    return phrase(lang, "touches {} from the hub", quantity(c.x, "m")) + ", " +
+           phrase(lang, "at {}", quantity(std::abs(c.v_n_before), "m/s"));
+}
+
+std::string impacts_text(std::ptrdiff_t count, Lang lang) {
+    return phrase(lang, count == 1 ? "{} impact" : "{} impacts", count);
 }
 
 // The index of the first collision that begins at `from` or later, but not with the motion itself.
@@ -79,7 +80,7 @@ void begin_before(double touch, const sim::Result& motion, FrameSpan& span) {
 // ---- "impact" ----------------------------------------------------------------------------------
 
 // What became, at the apex of the rebound, of the energy of the touch and of what cam, drive and fall have added.
-std::string energy_at_apex(double touch, double apex, const sim::Problem& problem, const FindEvents& find) {
+std::string energy_at_apex(double touch, double apex, const sim::Problem& problem, const FindEvents& find, Lang lang) {
     using enum ChannelKind;
     sim::Request request;
     request.end_time = apex;
@@ -104,26 +105,26 @@ std::string energy_at_apex(double touch, double apex, const sim::Problem& proble
         double size;
         const char* name;
     };
-    const Part sources[] = {{sum(moving, 0), "at the touch"},
-                            {cam, "from the cam"},
-                            {drive, "from the drive"},
-                            {-rebound, "from the fall"}},
-               uses[] = {{rebound, "rebound"},
-                         {sum(moving, 1), "vibration"},
-                         {gained({loss_structural, loss_contact, loss_friction, loss_hub}), "lost"},
-                         {-cam, "to the cam"},
-                         {-drive, "to the drive"}};
+    const Part sources[] = {{sum(moving, 0), "{} at the touch"},
+                            {cam, "{} from the cam"},
+                            {drive, "{} from the drive"},
+                            {-rebound, "{} from the fall"}},
+               uses[] = {{rebound, "{} rebound"},
+                         {sum(moving, 1), "{} vibration"},
+                         {gained({loss_structural, loss_contact, loss_friction, loss_hub}), "{} lost"},
+                         {-cam, "{} to the cam"},
+                         {-drive, "{} to the drive"}};
     double all = 0;
     for (const Part& each : sources) all += std::max(each.size, 0.0);
     if (!(all > 0)) return {};
     std::string from, to;
     for (const Part& each : sources)  // parts below half a percent are left out
         if (each.size > 0.005 * all)
-            from += fmt::format("{}{} {}", from.empty() ? "" : ", ", quantity(each.size, "J"), each.name);
+            from += (from.empty() ? "" : ", ") + phrase(lang, each.name, quantity(each.size, "J"));
     for (const Part& each : uses)
         if (const double percent = std::round(100 * each.size / all); percent > 0)
-            to += fmt::format("{}{:.0f} % {}", to.empty() ? "" : ", ", percent, each.name);
-    return "energy " + from + ": " + to;
+            to += (to.empty() ? "" : ", ") + phrase(lang, each.name, fmt::format("{:.0f} %", percent));
+    return phrase(lang, "energy {}", from) + ": " + to;
 }
 
 // The mechanism from near, the whole of it, the contact in micrometres, and the force of the collision.
@@ -145,19 +146,20 @@ LayoutNode impact_layout(bool has_force, const Size& size) {
 void tell_collision(PictureOutput& film, const sim::Collision& c, double liftoff) {
     constexpr double kAtTouch = 0.8, kAtPeak = 1.5, kAtLiftoff = 1.5;  // freezes [s]
     const double touch = c.t_start;
-    tell(film, touch, touch_of(c), kAtTouch);
+    const Lang lang = film.view.lang;
+    tell(film, touch, touch_of(c, lang), kAtTouch);
     if (liftoff == touch) film.span.events.back().show = kAtTouch;  // it is true while they touch
     if (c.t_peak && c.force_peak && *c.t_peak < liftoff)
         tell(film, *c.t_peak,
-             fmt::format("largest force {}, {} after the touch", quantity(*c.force_peak, "N"),
-                         quantity(*c.t_peak - touch, "s")),
+             phrase(lang, "largest force {}", quantity(*c.force_peak, "N")) + ", " +
+                 phrase(lang, "{} after the touch", quantity(*c.t_peak - touch, "s")),
              kAtPeak);
     if (!c.t_end)
-        tell(film, liftoff, "stays in contact");
-    else if (liftoff > touch)
+        tell(film, liftoff, phrase(lang, "stays in contact"));
+    else if (const std::string after = quantity(liftoff - touch, "s"); liftoff > touch)
         tell(film, liftoff,
-             "lifts off after " + quantity(liftoff - touch, "s") +
-                 (c.count > 1 ? " and " + counted(c.count, "impact") : ""),
+             c.count > 1 ? phrase(lang, "lifts off after {} and {}", after, impacts_text(c.count, lang))
+                         : phrase(lang, "lifts off after {}", after),
              kAtLiftoff);
 }
 
@@ -188,7 +190,7 @@ PictureOutput told_impact(PictureOutput film, const Scene& scene, const sim::Res
     tell_beginning(film, scene.problem);
     tell_collision(film, c, liftoff);
     if (rebounds)
-        tell(film, *span.to, energy_at_apex(touch, *span.to, scene.problem, find), kHold);
+        tell(film, *span.to, energy_at_apex(touch, *span.to, scene.problem, find, film.view.lang), kHold);
     else
         span.hold = kHold;
     film.view.keyframes = {
@@ -203,6 +205,7 @@ PictureOutput told_impact(PictureOutput film, const Scene& scene, const sim::Res
 PictureOutput told_settle(PictureOutput film, const Scene& scene, const sim::Result& motion) {
     constexpr double kFirst = 4, kMiddle = 5, kLast = 3, kAtTouch = 1.5, kAtRest = 1.5;  // durations in the film [s]
     constexpr std::size_t kBounces = 3;                                                  // collisions in the first part
+    const Lang lang = film.view.lang;
     FrameSpan& span = film.span;
     const std::size_t number = collision_after(span.from, motion), later = number + kBounces;
     const sim::Collision& first = motion.collisions[number];
@@ -227,15 +230,15 @@ PictureOutput told_settle(PictureOutput film, const Scene& scene, const sim::Res
     for (std::size_t k = 1; k < span.speed.intervals.size(); ++k)  // the film never slows down
         span.speed.intervals[k].factor = std::max(span.speed.intervals[k].factor, span.speed.intervals[k - 1].factor);
     tell_beginning(film, scene.problem);
-    tell(film, first.t_start, touch_of(first), kAtTouch);
+    tell(film, first.t_start, touch_of(first, lang), kAtTouch);
     const double touching = (first.t_end.value_or(*span.to) - first.t_start) / span.speed.intervals.front().factor;
     film.span.events.back().show = std::min(kShown, kAtTouch + touching);  // it is true while they touch
     const auto strongest = std::ranges::max_element(motion.collisions, {},
                                                     [](const sim::Collision& c) { return c.force_peak.value_or(0); });
     if (strongest->t_peak && strongest->t_start > first.t_start && *strongest->t_peak < slow_until)
         tell(film, *strongest->t_peak,
-             fmt::format("largest force {}, in collision {}", quantity(*strongest->force_peak, "N"),
-                         strongest - motion.collisions.begin() + 1));
+             phrase(lang, "largest force {}", quantity(*strongest->force_peak, "N")) + ", " +
+                 phrase(lang, "in collision {}", strongest - motion.collisions.begin() + 1));
     const auto impacts_between = [&](double from, double to) {
         return std::ranges::count_if(motion.impacts,
                                      [&](const sim::Impact& i) { return i.t_start >= from && i.t_start < to; });
@@ -243,13 +246,16 @@ PictureOutput told_settle(PictureOutput film, const Scene& scene, const sim::Res
     const auto all = impacts_between(first.t_start, settled);
     const bool endless = scene.problem.contact.model != sim::ContactModel::compliant && all > 1;
     if (const auto more = impacts_between(slow_until, settled); more > 1) {
-        const std::string count = endless ? "infinitely many" : fmt::format("{}", more);
-        tell(film, slow_until, fmt::format("{} more impacts in {}", count, quantity(settled - slow_until, "s")));
+        const std::string time = quantity(settled - slow_until, "s");
+        tell(film, slow_until,
+             endless ? phrase(lang, "infinitely many more impacts in {}", time)
+                     : phrase(lang, "{} more impacts in {}", more, time));
         film.span.events.back().show = kMiddle;
     }
+    const std::string impacts = endless ? phrase(lang, "infinitely many impacts") : impacts_text(all, lang);
     tell(film, settled,
-         fmt::format("stays in contact from {:.4g} s on, after {}", settled,
-                     endless ? "infinitely many impacts" : counted(all, "impact")),
+         phrase(lang, "stays in contact from {} on", fmt::format("{:.4g} s", settled)) + ", " +
+             phrase(lang, "after {}", impacts),
          kAtRest);
     return film;
 }

@@ -22,7 +22,7 @@ import sys
 import tempfile
 import time
 
-STAGES = ("motion", "drawing", "read back", "conversion", "encoding")
+STAGES = ("motion", "drawing", "conversion", "encoding")
 HERE = os.path.dirname(os.path.abspath(__file__))
 
 
@@ -162,9 +162,9 @@ def show(entry, head):
     if head:
         print(f"# {machine()}")
         print(f"{'film':14} {'size':>10} {'preset':>10} {'frames':>6} {'encoder':>9} {'cpu':>6} {'wall':>6} {'cpu/frame':>9} "
-              f"{'draw':>6} {'read':>6} {'convert':>8} {'encode':>7} {'peak':>9}")
+              f"{'draw':>6} {'convert':>8} {'encode':>7} {'peak':>9}")
     print(f"{entry['film']:14} {entry['size']:>10} {entry['preset']:>10} {entry['frames']:6} {entry['encoder_cpu_s']:7.2f} s "
-          f"{entry['cpu_ratio']:5.2f}x {entry['wall_ratio']:5.2f}x {entry['cpu_ms_a_frame']:6.1f} ms {entry['drawing_ratio']:5.2f}x {entry['read_back_ratio']:5.2f}x "
+          f"{entry['cpu_ratio']:5.2f}x {entry['wall_ratio']:5.2f}x {entry['cpu_ms_a_frame']:6.1f} ms {entry['drawing_ratio']:5.2f}x "
           f"{entry['conversion_ratio']:7.2f}x {entry['encoding_ratio']:6.2f}x "
           f"{entry['peak_mib']:5} MiB", flush=True)
 

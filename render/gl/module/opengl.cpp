@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <new>
@@ -28,17 +27,6 @@ GLuint compile(GLenum kind, std::initializer_list<const char*> parts) {
 }
 
 }  // namespace
-
-std::vector<Band> bands(const DirtyTiles& tiles) {
-    constexpr int kRows = 4 * DirtyTiles::kHeight;
-    std::vector<Band> out;
-    tiles.for_each_run([&](int left, int top, int right, int bottom) {
-        if (out.empty() || out.back().top / kRows != top / kRows) out.push_back({left, top, right, bottom});
-        Band& b = out.back();
-        b = {std::min(b.left, left), b.top, std::max(b.right, right), bottom};
-    });
-    return out;
-}
 
 GLuint link_program(std::initializer_list<const char*> vertex, std::initializer_list<const char*> fragment) {
     const GLuint program = glCreateProgram(), v = compile(GL_VERTEX_SHADER, vertex),

@@ -6,9 +6,7 @@
 
 #include <initializer_list>
 #include <memory>
-#include <vector>
 
-#include "render/draw/dirty_tiles.hpp"
 #include "render/draw/geometry.hpp"
 #include "render/mechanism/projection.hpp"
 
@@ -37,12 +35,6 @@ void set(GLuint program, const char* uniform, Vec3 value);
 
 // Describes the bound vertex buffer: attributes 0, 1 … with these numbers of floats, interleaved.
 void describe_vertices(std::initializer_list<GLint> floats);
-
-// Bands of a few rows of tiles: reading one band has a fixed cost of about ten thousand pixels.
-struct Band {
-    int left, top, right, bottom;  // [px]
-};
-std::vector<Band> bands(const DirtyTiles& tiles);
 
 // Creates and binds a frame buffer of RGBA pixels. Throws as the next two.
 GLuint make_target(int width, int height);

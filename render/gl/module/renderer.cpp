@@ -12,7 +12,6 @@
 #include "render/base/modules.hpp"
 #include "render/gl/module/opengl.hpp"
 #include "render/gl/module/shaders.hpp"
-#include "sim/base/clock.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -71,14 +70,9 @@ class Renderer final : public BodyRenderer {
         glClear(GL_COLOR_BUFFER_BIT);
         draw_shadows(scene);
         draw_bodies(scene);
-        glFinish();
-        const auto drawn = Clock::now();
         out = Image(width_, height_);
-        for (const Band& b : bands(scene.seen))
-            glReadPixels(b.left, b.top, b.right - b.left, b.bottom - b.top, GL_RGBA, GL_UNSIGNED_BYTE,
-                         out.pixels.data() + std::ptrdiff_t(b.top) * width_ + b.left);
+        glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, out.pixels.data());
         require_no_error();
-        read_back += seconds_since(drawn);
     }
 
   private:
@@ -92,7 +86,6 @@ class Renderer final : public BodyRenderer {
         glDisable(GL_DITHER);
         glEnable(GL_BLEND);
         glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-        glPixelStorei(GL_PACK_ROW_LENGTH, width_);
     }
 
     // Where shadows meet, the darker one counts.
@@ -121,16 +114,11 @@ class Renderer final : public BodyRenderer {
     std::string name_;
 };
 
-class Library final : public BodyRendererLibrary {
-  public:
-    Library() = default;
-    std::unique_ptr<BodyRenderer> make_renderer(int width, int height) const override {
-        return std::make_unique<Renderer>(width, height);
-    }
+const MakeBodyRenderer kMake = [](int width, int height) -> std::unique_ptr<BodyRenderer> {
+    return std::make_unique<Renderer>(width, height);
 };
-const Library kLibrary;
 
 }  // namespace
 }  // namespace beamcam::render
 
-BEAMCAM_MODULE(static_cast<const beamcam::render::BodyRendererLibrary&>(beamcam::render::kLibrary))
+BEAMCAM_MODULE(beamcam::render::kMake)

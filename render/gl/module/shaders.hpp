@@ -37,7 +37,7 @@ void main() {
     float grain = dot(across, across), along = dot(vec2(-across.y, across.x), half_way.xy);
     float mirrored = grain > 0.0 ? 1.0 - along * along / grain : max(dot(n, half_way), 0.0);
     vec3 c = paint.rgb * paint.rgb * diffuse + vec3(0.10 * power_24(mirrored) * facing);
-    color = vec4(sqrt(clamp(c, 0.0, 1.0)).bgr + noise(), 1.0) * paint.a;
+    color = vec4(clamp(sqrt(max(c, 0.0)).bgr + noise(), 0.0, 1.0), 1.0) * paint.a;
 })";
 
 // A shadow is the share of the light that a strip, or a disc, covers. Where shadows meet, the darker one counts.

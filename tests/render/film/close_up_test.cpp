@@ -43,8 +43,7 @@ TEST(CloseUp, TheDrawnGapIsTheSampledGap) {
     const Layout places = film.geometry(0).layout;
     const Box box = places.first(PanelKind::close_up)->box;
     const double u = places.unit, low = -1.35 * kDeepest, high = 1.9 * kDeepest;
-    const Box plot{std::round(box.x + 70 * u), std::round(box.y + 46 * u), std::round(box.w - 78 * u),
-                   std::round(box.h - 86 * u)};
+    const Box plot = plot_area(box, u, places.letters.words);
     const Color motion = palette(Theme::light).motion;
     // Centre of the rows that the line of the face covers.
     const auto row_of_face = [&](const Image& image) {

@@ -20,6 +20,15 @@ std::uint32_t pixel_of(const Color& c) {
     return 255U << 24 | channel(c.r) << 16 | channel(c.g) << 8 | channel(c.b);
 }
 
+// The stack has every energy and every loss of the balance.
+TEST(Energy, NoTermOfTheBalanceIsMissing) {
+    for (const sim::ChannelRow& row : sim::kChannels) {
+        const std::string_view name = row.name;
+        if (name == "energy_residual" || !(name.starts_with("energy_") || name.starts_with("loss_"))) continue;
+        EXPECT_TRUE(std::ranges::count(type_of(PanelKind::energy).channels, row.kind)) << name;
+    }
+}
+
 TEST(Energy, LossesThatNobodyHasLeaveTheOthers) {
     const auto ledger = [](double nothing) {
         FilmSetup setup = test::flat_film({.duration = 0.3, .cam = false}, 1920, 1080);  // rows of 1 % of the chart

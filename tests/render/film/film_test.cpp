@@ -313,19 +313,16 @@ TEST(LitFilm, TheBoreOfATransparentDiscIsFilled) {
     }
 }
 
-TEST(Trace, KeepsTheLargestForceOfEachPlaceWhateverTheOrder) {
+TEST(Trace, KeepsTheLargestForceOfEachPlace) {
     const std::vector<TraceSample> samples{{0, 0.5, 0.1, 3}, {1, 0.5, 0.1, 2}, {2, 0.9, 6.2, 7}, {3, 0.5, 0.1, 5}};
-    Trace trace(samples, 2 * M_PI, 100, 1, 10);
-    trace.advance_to(1.5);
-    EXPECT_EQ(trace.beam()[5], 3);
-    EXPECT_EQ(trace.rim()[1], 3);
-    EXPECT_EQ(trace.rim()[98], 0);
-    trace.advance_to(3);
-    EXPECT_EQ(trace.beam()[5], 5);
-    EXPECT_EQ(trace.rim()[98], 7);
-    trace.advance_to(0);
-    EXPECT_EQ(trace.beam()[5], 3);
-    EXPECT_EQ(trace.beam()[9], 0);
+    const Trace early = trace_until(samples, 1.5, 2 * M_PI, 100, 1, 10),
+                whole = trace_until(samples, 3, 2 * M_PI, 100, 1, 10);
+    EXPECT_EQ(early.beam[5], 3);
+    EXPECT_EQ(early.rim[1], 3);
+    EXPECT_EQ(early.rim[98], 0);
+    EXPECT_EQ(early.beam[9], 0);
+    EXPECT_EQ(whole.beam[5], 5);
+    EXPECT_EQ(whole.rim[98], 7);
 }
 
 TEST(Trace, RowsWithoutContactAreNoSamples) {

@@ -93,15 +93,6 @@ TEST(FigureAxis, HasThreeNumbersWhereFourHaveRoom) {
     EXPECT_THAT(numbers(3), ::testing::ElementsAre("20", "30"));
 }
 
-TEST(FigureAxis, NamesLabelTheMiddlesOfTheirIntervals) {
-    const Extent four{true, 0, 4};
-    const AxisMap all({.names = {"a", "b", "c", "d"}}, four, 4, "test");
-    ASSERT_EQ(all.ticks().size(), 4u);
-    EXPECT_DOUBLE_EQ(all.ticks()[1].at, all.place(1.5));
-    EXPECT_EQ(all.ticks()[1].label, "b");
-    EXPECT_THAT(labels(AxisMap({.names = {"a", "b", "c", "d"}}, four, 3, "test")), ::testing::ElementsAre("a", "c"));
-}
-
 TEST(FigureAxis, UnitsGetThePrefixThatSuitsTheNumbers) {
     const AxisMap small = axis(0, -3e-6, {.label = "$w$ / mm"});
     EXPECT_EQ(small.label(), "$w$ / nm");
