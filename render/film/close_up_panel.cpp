@@ -47,9 +47,11 @@ class CloseUpPanel final : public FilmPanel {
         const std::string whole = context_.look.translate("Contact close-up"),
                           brief = context_.look.translate("Contact");
         // The reading is beside the heading.
-        draw_heading(
-            canvas, context_, {area_.x, box_.y, area_.w, area_.h},
-            first_that_fits(canvas, {whole + whose + name, brief + whose + name, brief + name, brief, ""}, bold, room));
+        draw_heading(canvas, context_, {area_.x, box_.y, area_.w, area_.h},
+                     first_that_fits(canvas,
+                                     {whole + whose + name, brief + whose + name, brief + name,
+                                      has_cam ? plot_.y().name() : brief, ""},
+                                     bold, room));
         canvas.rectangle(area_);
         canvas.fill(close_up_background(context_.look.palette));
         if (!has_cam) return;
