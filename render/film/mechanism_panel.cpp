@@ -129,8 +129,8 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
     tip_path_.draw_trail(s);
     canvas.without_halo([&] {
         if (!s.view || style == Style::solid) {  // else only the labels are needed
-            style == Style::flat ? draw_flat(canvas, shape, at.unit, at.palette) : bodies.draw(s);
-            if (shape.disc) draw_disc_marks(s, trace);
+            style == Style::flat ? draw_flat(canvas, s.shape, at.unit, at.palette) : bodies.draw(s);
+            if (s.shape.disc) draw_disc_marks(s, trace);
         }
         draw_beam_trace(s, trace);
     });

@@ -75,7 +75,7 @@ Range range_of(const FilmContext& context, const PanelSpec& spec, const std::vec
     for (int m = 0; channel.kind == ChannelKind::theta && m < context.members(); ++m) {
         const Motion& one = context.motion(m);
         for (std::size_t k = 0; k < one.surveyed(); ++k)
-            if (const sim::Pose pose = one.surveyed(k); pose.t >= time.low && pose.t <= time.high)
+            if (const sim::Pose& pose = one.surveyed(k); pose.t >= time.low && pose.t <= time.high)
                 see(context.shown_factor(channel) * pose.theta);
     }
     const auto& [any, low, high] = all;
