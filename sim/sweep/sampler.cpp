@@ -27,7 +27,8 @@ Sampler::Sampler(const System& system, const Sampling& sampling)
     motion_.accuracy = kSettledTolerances * system_.problem().solver.rtol;
     if (sampling.kind != SampleKind::peaks) return;
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    peaks_.emplace().extrema.fill({kInfinity, 0, -kInfinity, 0});
+    peaks_ = Peaks{};
+    peaks_->extrema.fill({kInfinity, 0, -kInfinity, 0});
     peaks_->sample.fill(kNan);
 }
 
