@@ -47,8 +47,9 @@ void ModalModel::keep(const Eigen::VectorXd& x) {
     kept_.assign(places.size(), {});
     for (std::size_t k = 0; k < places.size(); ++k) {
         kept_[k].evaluate(tables_->shapes, places[k]);
+        if (!tables_->foreshortening) continue;
         kept_[k].h.resize(modes_, modes_);
-        if (tables_->foreshortening) tables_->foreshortening->matrix(kept_[k], kept_[k].h.data());
+        tables_->foreshortening->matrix(kept_[k], kept_[k].h.data());
     }
 }
 

@@ -21,7 +21,7 @@ NodalStep::NodalStep(System& of, std::shared_ptr<const ModalForm> modal_form, do
       bq_(n),
       gq_(n),
       start_(next.size()),
-      start_rate_(form->damped ? next.size() : 0) {
+      start_forcing_(form->damped ? next.size() : 0) {
     if (form->by_arrays()) return;
     inertia_ = std::make_unique<InertiaForces>(system.problem());
     for (auto* v : {&position_, &rate_, &coordinate_acceleration_, &forces_}) v->resize(n + 1);
@@ -43,12 +43,23 @@ void NodalStep::begin(double t) {
     theta_dot0 = y[1 + n];
     s.p0 = form->prescribed ? 0 : theta_dot0 * s.inertia(y + 1);
     set_scales(y, y);
-    if (!form->damped || system.phase().touching) return;
-    system.rhs(t, s.end.data(), start_rate_.data());
-    form->to_modes(start_rate_.data());
-    inertia_rate_ = 0;
+    if (form->damped && !system.phase().touching) place_start_forcing();
+}
+
+// From the accelerations of the whole system.
+void NodalStep::place_start_forcing() {
+    const ExponentialSegment& s = segment;
+    system.rhs(s.t0, s.end.data(), start_forcing_.data());
+    form->to_modes(start_forcing_.data());
+    double* at = start_forcing_.data() + 1 + n;
+    double inertia_rate = 0;
     for (std::size_t i = 0; i < form->inertia.size(); ++i)
-        inertia_rate_ += 2 * s.v0[i / n] * form->inertia[i] * s.q0[i % n];
+        inertia_rate += 2 * s.v0[i / n] * form->inertia[i] * s.q0[i % n];
+    at[0] = at[0] * s.inertia(start_.data() + 1) + theta_dot0 * inertia_rate;
+    for (std::size_t i = 0; i < n; ++i) {
+        const Oscillator& o = form->oscillators[i];
+        at[1 + i] = at[1 + i] + 2 * o.gamma * s.v0[i] + o.omega * o.omega * s.q0[i];
+    }
 }
 
 void NodalStep::propagate_rates(const StepTable& table) {
@@ -262,23 +273,20 @@ double NodalStep::drive_error(double h) const {
 // nodal values misses there, beyond its last coefficients, lasts up to the first node. Steps in contact begin short.
 double NodalStep::start_error(double h) const {
     const Collocation& gauss = Collocation::get();
-    const auto missed = [&](double start, const Lanes& nodal) {
-        return std::max(0.0, std::fabs(start - sum(gauss.derive[0][0] * nodal)) - legendre_decay(nodal).last);
+    const auto missed = [&](double before, const Lanes& nodal) {
+        return std::max(0.0, std::fabs(before - sum(gauss.derive[0][0] * nodal)) - legendre_decay(nodal).last);
     };
     double slowest = kNoSolution;
     for (const Oscillator& o : form->oscillators) slowest = std::min(slowest, o.gamma);
-    const double span = std::min(gauss.c[0] * h, 1 / slowest), *rate = start_rate_.data() + 1 + n;
+    const double span = std::min(gauss.c[0] * h, 1 / slowest), *start = start_forcing_.data() + 1 + n;
     double errors = 0;
     for (std::size_t i = 0; i < n; ++i) {
-        const Oscillator& o = form->oscillators[i];
-        const double f = rate[1 + i] + 2 * o.gamma * segment.v0[i] + o.omega * o.omega * segment.q0[i];
-        const double e = missed(f, segment.f[i]) * std::min(span, 1 / o.omega);
+        const double e = missed(start[1 + i], segment.f[i]) * std::min(span, 1 / form->oscillators[i].omega);
         errors += e * e;
     }
     const double modal = std::sqrt(errors) / scale_modes;
     if (form->prescribed) return modal;
-    const double p_dot = rate[0] * segment.inertia(start_.data() + 1) + theta_dot0 * inertia_rate_;
-    return std::max(modal, missed(p_dot, segment.p_dot) * span / form->J / scale_theta_dot);
+    return std::max(modal, missed(start[0], segment.p_dot) * span / form->J / scale_theta_dot);
 }
 
 double NodalStep::forcing_error(double h, const ContactLoad* load) {

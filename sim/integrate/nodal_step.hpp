@@ -79,6 +79,7 @@ struct NodalStep {
     void advance_angle(const Lanes& to);
     double set_angle(double h);
     double drive_error(double h) const;
+    void place_start_forcing();
     double start_error(double h) const;
     double turn_hub(double h, const Lanes& inertia);
     double update_by_arrays(const StepTable& table, const ContactLoad* load);
@@ -92,9 +93,8 @@ struct NodalStep {
     double rtol_, atol_;
     Lanes acceleration_{}, drive_torque_{};
     std::vector<Lanes> base_q_, base_v_, bq_, gq_;
-    std::vector<double> start_;       // of the step, in modes
-    std::vector<double> start_rate_;  // its derivative, of damped modes in flight
-    double inertia_rate_ = 0;         // 2 qᵀBq̇ there
+    std::vector<double> start_;          // of the step, in modes
+    std::vector<double> start_forcing_;  // of damped modes in flight: there, ṗ and f in place of the rates
     // These are null and empty where the modes are the coordinates.
     std::unique_ptr<InertiaForces> inertia_;
     std::vector<Lanes> position_, rate_, coordinate_acceleration_, mode_acceleration_, forces_, resistance_;
