@@ -22,11 +22,11 @@ std::vector<bool> not_covered(const std::vector<Vec2>& points, double apart) {
     return seen;
 }
 
-// The radius of markers without a line: smaller where they are so many that they would join.
+// The radius of markers without a line: smaller where they are at so many places that they would join.
 double marker_radius(const std::vector<Vec2>& points, const Box& plot, double usual) {
-    constexpr double kLeast = 0.55;  // of the usual one: below that, shapes are not told apart
-    const auto seen = std::ranges::count_if(points, [&](const Vec2 p) { return inside(plot, p, 0.5); });
-    return std::clamp(0.5 * plot.w / std::max<double>(1, static_cast<double>(seen)), kLeast * usual, usual);
+    constexpr double kLeast = 0.5;  // of the usual one: below that, shapes are not told apart
+    const auto places = std::ranges::count(not_covered(points, usual), true);
+    return std::clamp(0.5 * plot.w / std::max<double>(1, static_cast<double>(places)), kLeast * usual, usual);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "render/plot/drawn_curve.hpp"
 
@@ -213,27 +214,25 @@ void PanelNames::draw_labels_beside(const Plot& plot) const {
     TextStyle l = style_.words();
     l.align = HAlign::centre;
     l.turned = std::numbers::pi / 2;
+    if (plot.right()) l.color = color_of_axis(false);
     double x = box.x - style_.gap - widest_y_ - 1.6 * style_.gap - y_.beside;
     for (const std::string& line : y_.lines) sheet_.text({x, box.centre().y}, line, l), x += step;
     if (!plot.right()) return;
-    draw_key_of_axis(false, y_.lines.front(), {x - static_cast<double>(y_.lines.size()) * step, box.centre().y});
     l.valign = VAlign::top;
     x = box.right() + style_.gap + widest_right_ + 1.4 * style_.gap;
-    draw_key_of_axis(true, right_.lines.front(), {x + sheet_.cap_height(style_.letters), box.centre().y});
+    l.color = color_of_axis(true);
     for (const std::string& line : right_.lines) sheet_.text({x, box.centre().y}, line, l), x += step;
 }
 
-// The line of the curves of an axis, if they have one colour, before the axis's name, whose baseline has its middle
-// here.
-void PanelNames::draw_key_of_axis(bool right, const std::string& first_line, Vec2 middle) const {
-    const auto is_of_axis = [&](const Series& s) { return s.right == right && s.line; };
-    const auto first = std::ranges::find_if(panel_.series, is_of_axis);
-    if (first == panel_.series.end() || first_line.empty()) return;
-    for (const Series& s : panel_.series)
-        if (is_of_axis(s) && color_of(s) != color_of(*first)) return;
-    const double from = middle.y + 0.5 * sheet_.measure(first_line, style_.words()).w + 2 * style_.gap,
-                 x = middle.x - 0.5 * sheet_.cap_height(style_.letters);
-    draw_sample(sheet_, style_, *first, {x, from + kSampleLength * style_.letters}, {x, from});
+// That of its curves, if they have one.
+Color PanelNames::color_of_axis(bool right) const {
+    std::optional<Color> color;
+    for (const Series& s : panel_.series) {
+        if (s.right != right) continue;
+        if (color && *color != color_of(s)) return kInk;
+        color = color_of(s);
+    }
+    return color.value_or(kInk);
 }
 
 void PanelNames::draw_common_factors(const Plot& plot) const {

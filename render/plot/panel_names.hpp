@@ -52,7 +52,7 @@ class PanelNames {
     double widest(const AxisMap& axis) const;  // of its numbers
     void draw_label_below(const Plot& plot) const;
     void draw_labels_beside(const Plot& plot) const;
-    void draw_key_of_axis(bool right, const std::string& first_line, Vec2 middle) const;
+    Color color_of_axis(bool right) const;
     void draw_common_factors(const Plot& plot) const;
     void draw_titles(const Plot& plot, double top, bool alone) const;
     void draw_color_bar(const Plot& plot, const Box& beside) const;

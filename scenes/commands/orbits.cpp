@@ -313,7 +313,7 @@ void add_orbits(Program& program) {
                       "Largest number of points of a branch in each direction (default: 2000)"),
            1, 1000000);
     add_option(app, "--sweep", args.sweep_file, "FILE",
-               "Draw the impacts of a sweep over the same key (.csv or .npz) below the branches");
+               "Draw the impacts of a sweep over the same key (.csv or .npz) beneath the branches");
     within(add_option(app, "--row", args.row, "K",
                       "Start from row K of the table of --sweep: its state and the values of its swept keys"),
            1, 1000000000);

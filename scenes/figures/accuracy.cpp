@@ -9,10 +9,7 @@
 namespace beamcam::scenes {
 namespace {
 
-using render::Axis;
 using render::Scale;
-
-constexpr const char* kTime = "run time / ms";
 
 // The angle that the errors are of.
 const char* angle(const sim::Accuracy& a) { return a.of_tip ? "$δ/L$" : "$θ$"; }
@@ -33,7 +30,7 @@ void add_method(Panel& panel, const sim::Accuracy& a, sim::Method method, int lo
 }
 
 Panel work_precision(const sim::Accuracy& a, Lang lang) {
-    Panel panel{.x = {.label = phrase(lang, kTime), .scale = Scale::logarithmic},
+    Panel panel{.x = {.label = phrase(lang, "run time / ms"), .scale = Scale::logarithmic},
                 .y = {.label = error_label(a, lang), .scale = Scale::logarithmic},
                 .rules = {{.at = a.reference_error, .label = phrase(lang, "reference")},
                           {.at = a.target, .label = phrase(lang, "target")}},
@@ -49,17 +46,10 @@ Panel mode_counts(const sim::Accuracy& a, Lang lang) {
     Panel panel{.title = phrase(lang, "error, against $N$ = {}", a.most_modes),
                 .x = {.label = "$N$", .counts = true},
                 .y = {.label = error_label(a, lang), .scale = Scale::logarithmic},
-                .right = Axis{.label = phrase(lang, kTime), .scale = Scale::logarithmic},
+                .series = {{.name = "error", .every_point = true}},
                 .name = "modes"};
-    Series error{.name = "error", .every_point = true},
-        time{.name = "run time", .look = 1, .every_point = true, .right = true};
-    for (const sim::ModesRow& row : a.modes) {
-        if (!row.error) continue;
-        if (row.modes != a.most_modes) error.add(row.modes, visible(*row.error, a));
-        if (row.time.repeats > 0) time.add(row.modes, 1e3 * row.time.median);
-    }
-    if (!error.x.empty()) panel.series.push_back(std::move(error));
-    if (!time.x.empty()) panel.series.push_back(std::move(time));
+    for (const sim::ModesRow& row : a.modes)
+        if (row.error && row.modes != a.most_modes) panel.series[0].add(row.modes, visible(*row.error, a));
     return panel;
 }
 
@@ -71,11 +61,10 @@ Figure accuracy_figure(const sim::Accuracy& a, const Subject& subject) {
     if (panels.front().series.empty())
         throw render::PictureError("accuracy: no run ended, so there is nothing to draw");
     Panel modes = mode_counts(a, lang);
-    if (modes.series.size() == 2) panels.push_back(std::move(modes));
+    if (!modes.series[0].x.empty()) panels.push_back(std::move(modes));
     const double aspect = panels.size() > 1 ? 1.5 : 0.8;
     Figure figure{.name = "accuracy",
-                  .title = fmt::format("Largest error of {} in the first {} s against the run time on one core",
-                                       angle(a), number(a.until, 4)),
+                  .title = fmt::format("Largest error of {} in the first {} s", angle(a), number(a.until, 4)),
                   .panels = lettered(std::move(panels)),
                   .aspect = aspect};
     add_caption(figure, std::vector{subject.problem}, subject.units);

@@ -16,8 +16,7 @@ namespace {
 using render::figure::Figure, render::figure::Panel, render::figure::Series;
 
 constexpr std::uint32_t kSweptColor = 0x333333;
-constexpr double kWiderThanDots = 1.4;  // of branches on which the dots of a sweep lie
-constexpr double kUnstable = 0.6;       // of the width of stable branches
+constexpr double kUnstable = 0.6;  // of the width of stable branches
 constexpr double kGapInCurve = std::numeric_limits<double>::quiet_NaN();
 constexpr double kTiny = std::numeric_limits<double>::min();
 
@@ -165,10 +164,8 @@ Figure branches_figure(const output::BranchTable& table, const SweptImpacts& swe
     if (with_sweep) panel.clouds.push_back({phrase(lang, "sweep"), {}, swept.approach, render::rgb(kSweptColor)});
     for (const double parameter : swept.parameter) panel.clouds[0].x.push_back(shown.factor * parameter);
     add_special(table, shown.factor, shown.factor * (table.to - table.from), panel);
-    for (Series* series : {&curves.unstable, &curves.stable}) {  // the stable ones on top
-        if (with_sweep) series->weight *= kWiderThanDots;
+    for (Series* series : {&curves.unstable, &curves.stable})  // the stable ones on top
         if (!series->x.empty()) panel.series.push_back(std::move(*series));
-    }
     if (panel.series.empty())
         throw render::PictureError("branches: no orbit with impacts was followed, so there is nothing to draw");
     Figure figure{.name = "branches",

@@ -155,7 +155,7 @@ Panel distance_panel(const Trial& trial) {
                 .rules = {{.at = 0}}};
     for (std::size_t k = 0; k < f.x.size(); k += kRefined) {
         Series& s = panel.series.emplace_back();
-        s.label = "$x$ = " + length_text(f.x[k]);
+        s.label = (k == 0 ? "$x$ = " : "") + length_text(f.x[k]);
         s.look = Trial::look(k);
         for (std::size_t i = 0; i < f.t.size(); ++i)
             if (is_shown(f.t[i])) s.add(f.t[i] * time.factor, f.distance[k][i] * length.factor);

@@ -57,13 +57,14 @@ struct Falls {
 };
 
 Falls falls_of(const Scene& scene, MotionRequests& requests) {
-    const double end = scene.end_time;
     Falls out;
     const sim::Problem own = without_cam(scene.problem), stiff = rigid(own);
     sim::Problem doubled = stiff;
     doubled.gravity *= 2;
     out.flexible = own.beam.model != sim::ModelKind::rigid;
     const std::optional<double> exact = closed_form(own);
+    // Of a long scene the swings that follow are left out.
+    const double end = exact ? std::min(scene.end_time, 2 * *exact) : scene.end_time;
     out.paper = exact && is_of_the_paper(scene.problem) && *exact < end;
     if (out.flexible && exact && *exact + kAround < end) out.closely = exact;
     if (out.flexible) out.shown.push_back({"flexible", 0, own});

@@ -13,8 +13,9 @@ namespace beamcam::scenes {
 namespace {
 
 // Panel of points from zero on.
-Panel map_panel(std::string title, std::string x_label, std::string y_label) {
+Panel map_panel(std::string title, std::string caption, std::string x_label, std::string y_label) {
     return {.title = std::move(title),
+            .caption = std::move(caption),
             .x = {.label = std::move(x_label), .from = 0},
             .y = {.label = std::move(y_label), .from = 0},
             .series = {{.line = false, .every_point = true}},
@@ -44,10 +45,16 @@ std::vector<Panel> impact_maps(const Subject& subject, const sim::Result& result
     const auto& [problem, units, lang, end] = subject;
     const auto speed = [](const char* of) { return axis_label(of, "m/s"); };
     const Measure turning = measure_in(units, "rad/s");
-    Panel loss = map_panel(phrase(lang, "restitution"), speed("$v$"), "$c$"),
-          next = map_panel(phrase(lang, "next collision"), speed("$v_{k}$"), speed("$v_{k+1}$")),
-          phase = map_panel(phrase(lang, "approach speed"), kPhaseLabel, speed("$v$")),
-          hub = map_panel(phrase(lang, "hub speed"), kPhaseLabel, axis_label("$\\dot{θ}$", turning.unit));
+    const double law = problem.contact.restitution;
+    Panel loss =
+              map_panel(phrase(lang, "restitution"),
+                        "restitution $c$ of the point of contact, dashed: 1, and the contact law's " + number(law, 3),
+                        speed("$v$"), "$c$"),
+          next = map_panel(phrase(lang, "next collision"), "approach speeds of successive collisions, grey: equal ones",
+                           speed("$v_{k}$"), speed("$v_{k+1}$")),
+          phase = map_panel(phrase(lang, "approach speed"), "approach speed by the phase $φ$ of the cam", kPhaseLabel,
+                            speed("$v$")),
+          hub = map_panel(phrase(lang, "hub speed"), "hub speed", kPhaseLabel, axis_label("$\\dot{θ}$", turning.unit));
     for (const sim::Impact& hit : strikes(problem, result.impacts, from, to)) {
         if (hit.restitution) loss.series[0].add(std::abs(hit.v_n_before), *hit.restitution);
         phase.series[0].add(phase_of(hit), std::abs(hit.v_n_before));
@@ -56,14 +63,7 @@ std::vector<Panel> impact_maps(const Subject& subject, const sim::Result& result
     const std::vector<sim::Collision> all = strikes(problem, result.collisions, from, to);
     for (std::size_t k = 0; k + 1 < all.size(); ++k)
         next.series[0].add(std::abs(all[k].v_n_before), std::abs(all[k + 1].v_n_before));
-    loss.rules = {{.at = 1, .label = phrase(lang, "no loss")}};
-    loss.legend = true;
-    loss.series.push_back({.label = "$c_{\\r{r}}$",
-                           .x = {0, largest_magnitude(loss.series[0].x)},
-                           .y = {problem.contact.restitution, problem.contact.restitution},
-                           .look = 1,
-                           .weight = 0.5,
-                           .color = render::rgb(0x777777)});
+    loss.rules = {{.at = 1, .label = phrase(lang, "no loss")}, {.at = law}};
     if (!next.series[0].x.empty()) {
         const double fastest = std::ranges::max(next.series[0].x);
         next.series.push_back(
@@ -100,8 +100,7 @@ Panel histogram(std::string label, const std::vector<double>& values, double end
     Series steps;
     for (std::size_t k = 0; k < bins; ++k)
         for (const std::size_t edge : {k, k + 1}) steps.add(width * static_cast<double>(edge), counts[k]);
-    return {.title = fmt::format("$n$ = {}", values.size()),
-            .x = {.label = std::move(label), .tight = true},
+    return {.x = {.label = std::move(label), .tight = true},
             .y = {.label = phrase(lang, "impacts"), .with_zero = true, .counts = true},
             .series = {steps},
             .bands = {{.x = steps.x, .low = std::vector<double>(steps.x.size(), 0), .high = steps.y}},
@@ -122,7 +121,9 @@ FigureDrawing prepare_histograms(const Scene& scene, const FigureOutput& how, Mo
                 "figure impact-histograms: only {} from {:g} s to {:g} s, too few for a histogram; raise time.end, or "
                 "see impact-maps",
                 counted(speeds.size(), "impact"), from, to));
-        return {.panels = lettered({histogram(axis_label(phrase(lang, "approach speed"), "m/s"), speeds,
+        return {.title = fmt::format("Histograms of the approach speed and of the phase $φ$ of the cam at {} impacts",
+                                     speeds.size()),
+                .panels = lettered({histogram(axis_label(phrase(lang, "approach speed"), "m/s"), speeds,
                                               *std::ranges::max_element(speeds), lang),
                                     histogram(kPhaseLabel, phases, 1, lang)}),
                 .aspect = 1.2};
@@ -133,17 +134,10 @@ FigureDrawing prepare_histograms(const Scene& scene, const FigureOutput& how, Mo
 }  // namespace
 
 extern const FigureType kImpactMaps{
-    .name = "impact-maps",
-    .title =
-        "Impacts by their approach speed $v$ and the phase $φ$ of the cam; $c$: restitution of the point of contact, "
-        "above 1 where the beam leaves faster than it came, $c_{\\r{r}}$: that of the contact law, grey: "
-        "$v_{k+1}$ = $v_{k}$",
-    .refusal = needs_cam,
-    .maker = prepare_maps,
-    .keys = {"from", "to"}};
+    .name = "impact-maps", .title = "Impacts", .refusal = needs_cam, .maker = prepare_maps, .keys = {"from", "to"}};
 extern const FigureType kImpactHistograms{
     .name = "impact-histograms",
-    .title = "Histograms of the approach speed and of the phase $φ$ of the cam at $n$ impacts",
+    .title = "Histograms of the approach speed and of the phase of the cam at impacts",
     .refusal = needs_cam,
     .maker = prepare_histograms,
     .keys = {"from", "to"}};

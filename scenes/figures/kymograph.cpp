@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "render/plot/ticks.hpp"
+#include "scenes/figures/axis_labels.hpp"
 #include "scenes/figures/figure_types.hpp"
 
 namespace beamcam::scenes {
@@ -12,6 +13,10 @@ namespace {
 
 constexpr int kColumns = 600, kStations = 129;  // a printed column resolves few more
 constexpr int kMostSamples = 64;                // of a column
+constexpr const char *kDeflections = "Deflection from the tangent at the root, along the beam and in time",
+                     *kMagnitudes =
+                         "Largest magnitude of the vibrating deflection from the tangent at the root, along the beam "
+                         "and in time";
 
 // Instants per column: more than one where the vibration is faster than the columns, so that it is not aliased. Sixteen
 // in a period miss its largest deflection by less than 2 %.
@@ -48,10 +53,11 @@ Panel kymograph_panel(const std::vector<double>& v, const ShownPoses& shown, dou
         .from = is_signed ? -range / prefix.factor : 0,
         .to = range / prefix.factor,
         .is_signed = is_signed,
-        .root = true};
+        .root = is_signed || magnitudes};
+    const Measure place = measure_of("m", length);
     render::figure::Cells cells;
     for (int k = 0; k <= kColumns; ++k) cells.x.push_back(shown.from + (shown.to - shown.from) * k / kColumns);
-    for (int i = 0; i <= kStations; ++i) cells.y.push_back(length * i / kStations);
+    for (int i = 0; i <= kStations; ++i) cells.y.push_back(place.factor * length * i / kStations);
     for (std::size_t i = 0; i < kStations; ++i)
         for (std::size_t k = 0; k < kColumns; ++k) {
             const double share = v[k * kStations + i] / range;
@@ -59,7 +65,7 @@ Panel kymograph_panel(const std::vector<double>& v, const ShownPoses& shown, dou
             cells.values.push_back(v[k * kStations + i] / prefix.factor);
         }
     return {.x = {.label = "$t$ / s", .tight = true},
-            .y = {.label = "$x$ / m", .tight = true},
+            .y = {.label = axis_label("$x$", place.unit), .tight = true},
             .cells = {std::move(cells)},
             .color_bar = bar,
             .legend = false};
@@ -73,25 +79,24 @@ FigureDrawing prepare_kymograph(const Scene& scene, const FigureOutput& how, Mot
         const auto& [problem, units, lang, end] = subject;
         Panel panel =
             kymograph_panel(deflections(result.poses[shown.poses], samples), shown, problem.beam.length, samples > 1);
-        Series hits{.name = "impact", .look = 1, .line = false, .every_point = true};
+        std::string title = samples > 1 ? kMagnitudes : kDeflections;
+        Series hits{.name = "impact", .look = 6, .line = false, .every_point = true};  // black
         for (const sim::Impact& hit : strikes(problem, result.impacts, shown.from, shown.to))
-            hits.add(hit.t_start, hit.x);
+            hits.add(hit.t_start, hit.x * measure_of("m", problem.beam.length).factor);
+        if (!hits.x.empty()) title += "; dots: impacts";
         panel.series.push_back(std::move(hits));
-        return {.panels = {std::move(panel)}};
+        return {.title = std::move(title), .panels = {std::move(panel)}};
     });
 }
 
 }  // namespace
 
-extern const FigureType kKymograph{
-    .name = "kymograph",
-    .title =
-        "Deflection from the tangent at the root, along the beam and in time, |$v$| where it is the largest of a fast "
-        "vibration; squares: impacts",
-    .refusal = needs_bending,
-    .maker = prepare_kymograph,
-    .keys = {"from", "to"},
-    .begins = Instant{.kind = Instant::Kind::collision},
-    .ends = Instant{.kind = Instant::Kind::liftoff}};
+extern const FigureType kKymograph{.name = "kymograph",
+                                   .title = kDeflections,
+                                   .refusal = needs_bending,
+                                   .maker = prepare_kymograph,
+                                   .keys = {"from", "to"},
+                                   .begins = Instant{.kind = Instant::Kind::collision},
+                                   .ends = Instant{.kind = Instant::Kind::liftoff}};
 
 }  // namespace beamcam::scenes

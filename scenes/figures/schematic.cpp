@@ -231,12 +231,22 @@ class Drawing : private Sketch {
 };
 
 constexpr double kAspect = 0.98;
-constexpr const char* kSymbols =
-    "The system, deflection exaggerated; $X$, $Y$: fixed axes; $x$′, $y$′: axes of the hub, whose radius is $a$ and "
-    "whose angle is $θ$; $L$: length of the beam; $v$: its deflection; $g$: gravity";
-constexpr const char* kSymbolsOfCam =
-    "; $C$: axis of the cam, at the distance $D$ from $O$; $B$: centre of its disc; $R$: radius; $e$: eccentricity; "
-    "$ω$: speed";
+// Explains the symbols that are drawn.
+std::string symbols_of(const sim::Problem& p) {
+    std::string all =
+        "The system; $X$, $Y$: fixed axes; $x$′, $y$′: axes of the hub, whose radius is $a$ and whose angle is $θ$; "
+        "$L$: length of the beam";
+    if (p.beam.model != sim::ModelKind::rigid) all += "; $v$: its deflection, exaggerated";
+    if (has_torque(p.hub.drive)) all += "; $τ$: torque";
+    if (p.gravity != 0) all += "; $g$: gravity";
+    if (!p.cam) return all;
+    all += "; $C$: axis of the cam, at the distance $D$ from $O$";
+    if (p.cam->profile) return all;
+    all += "; $B$: centre of its disc; $R$: radius";
+    if (p.cam->eccentricity > 0) all += "; $e$: eccentricity";
+    if (p.cam->speed != 0) all += "; $ω$: speed";
+    return all;
+}
 
 // The magnified disc's radius is about an eighth of the page's shorter side.
 double letter_of(const FigureOutput& how) {
@@ -251,9 +261,9 @@ double letter_of(const FigureOutput& how) {
 
 FigureDrawing prepare_schematic(const Scene&, const FigureOutput& how, MotionRequests&) {
     return [letter = letter_of(how)](const Subject& subject, const MotionResults&) -> Figure {
-        Figure figure{
-            .title = kSymbols, .panels = {{.shapes = Drawing(subject.problem, letter).shapes()}}, .aspect = kAspect};
-        if (subject.problem.cam) figure.title += kSymbolsOfCam;
+        Figure figure{.title = symbols_of(subject.problem),
+                      .panels = {{.shapes = Drawing(subject.problem, letter).shapes()}},
+                      .aspect = kAspect};
         add_caption(figure, std::vector{subject.problem}, subject.units);
         return figure;
     };

@@ -64,22 +64,25 @@ void add_speed(const std::vector<sim::Pose>& poses, Sketch& to, render::Bounds& 
     extent.add(tip + way);
 }
 
-// Beyond the tip, where no other beam is drawn, and to one `side` of it.
-void add_instant(const sim::Pose& pose, int decimals, double side, Sketch& to) {
+// Beyond the tip, where no other beam is drawn.
+void add_instants(const sim::Pose& pose, std::string instants, Sketch& to) {
     const Vec2 tip = pose.centreline.back(), along = sim::unit(pose.theta);
     to.add({.kind = Sketch::Kind::label,
-            .points = {tip + 0.03 * norm(tip) * along + 0.035 * side * norm(tip) * sim::perp(along)},
-            .markup = render::fixed(pose.t, decimals) + " s",
+            .points = {tip + 0.04 * norm(tip) * along},
+            .markup = std::move(instants),
             .align = along.x < 0 ? render::HAlign::right : render::HAlign::left});
 }
 
-// The first and the last one, away from each other.
+// The first and the last one; beams that are too close for two labels have one.
 void label_instants(const std::vector<sim::Pose>& poses, Sketch& to) {
+    constexpr double kClose = 0.07;  // in lengths of the beam
     const sim::Pose &first = poses.front(), &last = poses.back();
     const int decimals = render::decimals_of(poses[1].t - first.t) + 1;
-    const double side = first.theta < last.theta ? -1 : 1;
-    add_instant(last, decimals, -side, to);
-    add_instant(first, decimals, side, to);
+    const std::string start = render::fixed(first.t, decimals) + " s", end = render::fixed(last.t, decimals) + " s";
+    const Vec2 tip = last.centreline.back();
+    if (norm(first.centreline.back() - tip) < kClose * norm(tip)) return add_instants(last, start + ", " + end, to);
+    add_instants(first, start, to);
+    add_instants(last, end, to);
 }
 
 // Below the drawing, the direction of gravity, a length of 1, 2 or 5 times a power of ten, about a fifth of the beam's,
@@ -129,6 +132,8 @@ Panel strobe_panel(const std::vector<sim::Pose>& poses, const Subject& subject, 
 
 FigureDrawing prepare_strobe(const Scene& scene, const FigureOutput& how, MotionRequests& requests) {
     const ShownPoses shown = request_poses(scene, how, kShownPoses, kPoseStations, requests);
+    // The speed at the last instant is that before an impulse.
+    requests.request(shown.motion).poses[shown.poses].times.back() *= 1 - 1e-9;
     const auto draw = [=](const Subject& subject, const sim::Result& result) -> Figure {
         render::Bounds extent;
         Panel panel = strobe_panel(result.poses[shown.poses], subject, extent);
@@ -145,9 +150,8 @@ FigureDrawing prepare_strobe(const Scene& scene, const FigureOutput& how, Motion
 extern const FigureType kStrobe{
     .name = "strobe",
     .title =
-        "The beam at equally spaced instants, from pale to dark, and the cam at both ends; deflection to "
-        "scale; the arrow at the tip is its speed at the last "
-        "instant, by the largest shown",
+        "The beam at equally spaced instants, from pale to dark, and the cam at both ends; deflection to scale; the "
+        "arrow is the speed of the tip at the last instant, relative to its largest at these instants",
     .refusal = no_refusal,
     .maker = prepare_strobe,
     .keys = {"from", "to"},

@@ -1,5 +1,5 @@
 // Displacement, velocity, acceleration and jerk of the straight lever that follows the cam, over a turn of the cam;
-// over the first two those of the beam's hub in the last turn of the scene. MODEL.md (S106).
+// over the first two those of the beam's hub in the last turn of the scene, if it is slow. MODEL.md (S106).
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -13,6 +13,8 @@ namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr int kTurnRows = 2001;  // of the beam's motion
+constexpr double kSlow = 3;  // speeds of the lever: a faster hub, which rings or flies, would hide the lever's curve
+constexpr const char* kTitle = "The straight lever's angle on the cam and its derivatives by the turn of the cam";
 
 // States over a turn from φ = 0. Where a derivative jumps there are two at the same turn.
 std::vector<sim::Lever::State> turn_of(const sim::Lever& lever) {
@@ -48,7 +50,8 @@ void add_beam(const sim::Problem& problem, const sim::Table& table, double angle
         rate.add(phi, speed[i] / problem.cam->speed);
     }
     angle.series.push_back(std::move(theta));
-    velocity.series.push_back(std::move(rate));
+    if (largest_magnitude(rate.y) < kSlow * largest_magnitude(velocity.series.front().y))
+        velocity.series.push_back(std::move(rate));
 }
 
 Figure svaj_figure(const Subject& subject, const sim::Result* result, std::size_t table) {
@@ -75,7 +78,9 @@ Figure svaj_figure(const Subject& subject, const sim::Result* result, std::size_
         if (panels.size() > 1) panels.back().rules = {{.at = 0}};
     }
     if (result) add_beam(problem, result->tables[table], angle.factor, lang, panels[0], panels[1]);
-    Figure figure{.panels = lettered(std::move(panels)), .stack = true, .share_x = true, .aspect = 1.7};
+    Figure figure{
+        .title = kTitle, .panels = lettered(std::move(panels)), .stack = true, .share_x = true, .aspect = 1.7};
+    if (result) figure.title += "; dashed: the hub of the beam in the last turn";
     if (result)
         add_caption(figure, {{&problem, result}}, units);
     else
@@ -106,10 +111,6 @@ std::optional<std::string> needs_lever(const Scene& scene) {
 
 }  // namespace
 
-extern const FigureType kSvaj{
-    "svaj",
-    "The straight lever's angle on the cam and its derivatives by the turn of the cam; the hub "
-    "of the beam in the last turn",
-    needs_lever, prepare_svaj};
+extern const FigureType kSvaj{"svaj", kTitle, needs_lever, prepare_svaj};
 
 }  // namespace beamcam::scenes

@@ -278,8 +278,8 @@ TEST(Overviews, AStrobeNamesItsEndsAndTheTimeBetweenInstants) {
             if (shape.kind == render::figure::Shape::Kind::label) out.push_back(shape.markup);
         return out;
     };
-    EXPECT_THAT(labels("0.25"), ::testing::ElementsAre("$ω$", "0.250 s", "0.000 s", "$g$", HasSubstr("every 31.2")));
-    EXPECT_THAT(labels("0.05"), ::testing::ElementsAre("$ω$", "0.0500 s", "0.0000 s", "$g$", HasSubstr("every 6.25")));
+    EXPECT_THAT(labels("0.25"), ::testing::ElementsAre("$ω$", "0.000 s", "0.250 s", "$g$", HasSubstr("every 31.2")));
+    EXPECT_THAT(labels("0.05"), ::testing::ElementsAre("$ω$", "0.0000 s, 0.0500 s", "$g$", HasSubstr("every 6.25")));
 }
 
 // Near the top, labels side by side need more room than their height.
