@@ -15,34 +15,24 @@ struct Typography {
     const char *family, *symbols;  // of text, and of the italic symbols of mathematics
     const char* cjk;               // of Chinese, Japanese and Korean
     double symbol_size;            // relative: the x-heights of both become equal
-    bool tabular, light_symbols;   // digits of equal width; symbols are regular in bold text, too
+    bool light_symbols;            // symbols are regular in bold text, too
     LetterRules rules;
 };
-// Pictures: the numbers that change do not jitter; scripts have the size and place that Inter defines in its table
-// OS/2.
+// Pictures: scripts have the size and place that Inter defines in its table OS/2.
 constexpr Typography kScreenLetters{
     "Inter,STIXGeneral,STIX Two Text,Noto Sans CJK SC",
     "STIXGeneral,STIX Two Text",
     "Noto Sans CJK SC",
     1.12,
     true,
-    true,
     {.cap_height = 0.727, .script_size = 1690. / 2816, .raised = 986. / 2816, .lowered = 0.17, .behind_italic = 0}};
 // No letter of a page is smaller than 6 pt, sub- and superscripts included.
-constexpr Typography kPrintLetters{"Liberation Sans,Droid Sans Fallback",
-                                   "Liberation Serif,Droid Sans Fallback",
-                                   "Droid Sans Fallback",
-                                   1.12,
-                                   false,
-                                   false,
-                                   {.cap_height = 0.716, .smallest = 6}};
-constexpr Typography kSerifLetters{"Liberation Serif,Droid Sans Fallback",
-                                   "Liberation Serif,Droid Sans Fallback",
-                                   "Droid Sans Fallback",
-                                   1,
-                                   false,
-                                   false,
-                                   {.cap_height = 0.655, .smallest = 6}};
+constexpr Typography kPrintLetters{
+    "Liberation Sans,Droid Sans Fallback", "Liberation Serif,Droid Sans Fallback", "Droid Sans Fallback", 1.12, false,
+    {.cap_height = 0.716, .smallest = 6}};
+constexpr Typography kSerifLetters{
+    "Liberation Serif,Droid Sans Fallback", "Liberation Serif,Droid Sans Fallback", "Droid Sans Fallback", 1, false,
+    {.cap_height = 0.655, .smallest = 6}};
 
 const Typography& typography(Typefaces typefaces) {
     return typefaces == Typefaces::screen  ? kScreenLetters
@@ -67,8 +57,7 @@ void add_cjk_runs(PangoAttrList* attributes, const char* family, const std::stri
     }
 }
 
-PangoLayout* make_layout(PangoContext* context, const LetterFace& face, const std::string& text, const Typography& t,
-                         bool tabular) {
+PangoLayout* make_layout(PangoContext* context, const LetterFace& face, const std::string& text, const Typography& t) {
     PangoLayout* layout = pango_layout_new(context);
     PangoFontDescription* font = pango_font_description_new();
     pango_font_description_set_family_static(font, face.family);
@@ -81,7 +70,7 @@ PangoLayout* make_layout(PangoContext* context, const LetterFace& face, const st
     pango_layout_set_ellipsize(layout, face.max_width > 0 ? PANGO_ELLIPSIZE_END : PANGO_ELLIPSIZE_NONE);
     pango_layout_set_width(layout, face.max_width > 0 ? static_cast<int>(face.max_width * PANGO_SCALE) : -1);
     PangoAttrList* attributes = pango_attr_list_new();
-    if (tabular) pango_attr_list_insert(attributes, pango_attr_font_features_new("tnum=1"));
+    if (face.tabular) pango_attr_list_insert(attributes, pango_attr_font_features_new("tnum=1"));
     add_cjk_runs(attributes, t.cjk, text);
     pango_layout_set_attributes(layout, attributes);
     pango_attr_list_unref(attributes);
@@ -90,7 +79,7 @@ PangoLayout* make_layout(PangoContext* context, const LetterFace& face, const st
 }
 
 bool is_drawn(PangoContext* context, const LetterFace& face, const std::string& text, const Typography& t) {
-    PangoLayout* layout = make_layout(context, face, text, t, false);
+    PangoLayout* layout = make_layout(context, face, text, t);
     const bool known = pango_layout_get_unknown_glyphs_count(layout) == 0;
     g_object_unref(layout);
     return known;
@@ -106,7 +95,7 @@ std::string missing_glyphs(std::string_view text) {
 }  // namespace
 
 std::string LetterFace::key(std::string_view text) const {
-    const double numbers[] = {size, max_width, static_cast<double>(weight) + (italic ? 0.5 : 0)};
+    const double numbers[] = {size, max_width, static_cast<double>(weight) + (italic ? 0.5 : 0) + (tabular ? 0.25 : 0)};
     return std::string(reinterpret_cast<const char*>(numbers), sizeof numbers).append(text);
 }
 
@@ -118,6 +107,7 @@ LetterFace face_of(const SetRun& set, const TextStyle& style, Typefaces typeface
             .size = symbol ? t.symbol_size * set.size : set.size,
             .weight = symbol && t.light_symbols ? Weight::regular : style.weight,
             .italic = symbol,
+            .tabular = style.tabular,
             .max_width = style.max_width > 0 && !symbol ? room : 0};
 }
 
@@ -140,11 +130,11 @@ PangoLayout* layout_of(const Fonts& fonts, const LetterFace& face, const std::st
     const Fonts::Handles& handles = fonts.handles();
     return handles.layouts.get(face.key(text), [&] {
         const Typography& t = typography(fonts.typefaces());
-        PangoLayout* layout = make_layout(handles.context, face, text, t, t.tabular);
+        PangoLayout* layout = make_layout(handles.context, face, text, t);
         if (pango_layout_get_unknown_glyphs_count(layout) == 0) return layout;
         g_object_unref(layout);
         if (fonts.typefaces() != Typefaces::screen) throw FontError(missing_glyphs(text));
-        return make_layout(handles.context, face, drawable(fonts, text), t, t.tabular);
+        return make_layout(handles.context, face, drawable(fonts, text), t);
     });
 }
 

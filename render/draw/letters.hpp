@@ -58,7 +58,7 @@ struct LetterFace {
     const char* family;
     double size = 16;
     Weight weight = Weight::regular;
-    bool italic = false;
+    bool italic = false, tabular = false;
     double max_width = 0;  // > 0: truncated with an ellipsis
     std::string key(std::string_view text) const;
 };

@@ -152,12 +152,12 @@ void Painter::without_halo(const std::function<void()>& draw) {
 }
 
 void Painter::stroke(const Pen& pen) {
-    const double halo = halo_of_all ? 2.5 * pen.width + 1 : pen.width;
+    const double halo = halo_of_all ? 1.6 * pen.width + 1 : pen.width;
     mark_path(halo / 2);  // joins are round
     cairo_set_line_cap(cr_, pen.cap == Cap::round ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
     cairo_set_dash(cr_, pen.dash.data(), static_cast<int>(pen.dash.size()), 0);
     if (halo_of_all && halo_of_all->faded(0) != pen.color.faded(0)) {
-        set_source(halo_of_all->faded(pen.color.a));
+        set_source(halo_of_all->faded(pen.color.a * pen.color.a));  // faint lines have hardly any
         cairo_set_line_width(cr_, halo);
         cairo_stroke_preserve(cr_);
     }
@@ -216,7 +216,7 @@ void Painter::pixels(const Image& image, const Box& into) {
     mark_painted(into);
 }
 
-double Painter::halo_width(const TextStyle& style) { return 0.30 * style.size; }
+double Painter::halo_width(const TextStyle& style) { return 0.20 * style.size; }
 
 void Painter::draw_halo(const SetLabel& label, Vec2 at, const TextStyle& style, Color color) {
     for (const SetRun& run : label.runs) {

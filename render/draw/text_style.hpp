@@ -25,6 +25,7 @@ struct TextStyle {
     VAlign valign = VAlign::baseline;
     double max_width = 0;            // pictures only; > 0: truncated with an ellipsis
     std::optional<Color> halo = {};  // outline that keeps the text readable over drawings
+    bool tabular = false;            // pictures only: digits of equal width, so that a changing number does not jitter
     double turned = 0;               // pages only: rotation, counter-clockwise [rad]
 };
 

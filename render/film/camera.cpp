@@ -42,12 +42,13 @@ std::vector<Followed> averaged(const std::vector<Followed>& all, int half) {
     return out;
 }
 
-Vec2 place_of(const Anchor& anchor, const Followed& parts, Vec2 middle) {
+Vec2 place_of(const Shot& shot, const Followed& parts, Vec2 middle) {
+    const Anchor& anchor = shot.follow;
     switch (anchor.kind) {
         case Anchor::Kind::all:
             return middle;
         case Anchor::Kind::tip:
-            return parts.tip;
+            return parts.tip * (1 - 0.25 / std::max(1.0, shot.zoom));  // there would be nothing beyond it
         case Anchor::Kind::contact:
             return parts.contact;
         case Anchor::Kind::cam:
@@ -84,7 +85,7 @@ std::vector<CameraFrame> camera_frames(const Shot& first, const std::vector<Came
     std::vector<CameraFrame> out;
     for (std::size_t k = 0; k < mean.size(); ++k) {
         const auto seen = [&](const Shot& shot) -> Seen {
-            return {shot.zoom, shot.yaw, shot.pitch, place_of(shot.follow, mean[k], middle)};
+            return {shot.zoom, shot.yaw, shot.pitch, place_of(shot, mean[k], middle)};
         };
         const auto frame = static_cast<double>(k);
         Seen now = seen(first);

@@ -21,7 +21,7 @@ struct Anchor {
 // Settings of the camera.
 struct Shot {
     double zoom = 1;      // relative to the camera that shows everything, > 0
-    Anchor follow = {};   // at the centre
+    Anchor follow = {};   // at the centre; the tip a little outside it
     double yaw = 0.42;    // solid view: positive from the right of the plane of motion [rad], within ±1.2
     double pitch = 0.20;  // solid view: positive from above [rad], within ±1.2
     bool operator==(const Shot&) const = default;

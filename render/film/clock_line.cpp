@@ -71,7 +71,7 @@ double ClockLine::measure(const Canvas& canvas) {
 }
 
 TextStyle ClockLine::clock_style() const {
-    return {.size = size_, .color = context_.look.palette.ink, .weight = Weight::semibold};
+    return {.size = size_, .color = context_.look.palette.ink, .weight = Weight::semibold, .tabular = true};
 }
 
 // On an unknown background pills are opaque.

@@ -42,16 +42,16 @@ class CloseUpPanel final : public FilmPanel {
         const TextStyle bold{.size = context_.look.letters.heading, .weight = Weight::semibold},
             plain{.size = context_.look.letters.heading, .weight = Weight::medium};
         const double room = area_.w - 16 * context_.look.unit -
-                            canvas.measure(context_.look.translate("penetration") + " 000\u00A0µm", plain).w;
+                            canvas.measure(context_.look.translate("penetration") + kWidestGap, plain).w;
         const std::string whose = motion_suffix(context_, member_), name = has_cam ? " " + plot_.y().name() : "";
         const std::string whole = context_.look.translate("Contact close-up"),
                           brief = context_.look.translate("Contact");
         // The reading is beside the heading.
-        draw_heading(canvas, context_, {area_.x, box_.y, area_.w, area_.h},
-                     first_that_fits(canvas,
-                                     {whole + whose + name, brief + whose + name, brief + name,
-                                      has_cam ? plot_.y().name() : brief, ""},
-                                     bold, room));
+        draw_heading(
+            canvas, context_, {area_.x, box_.y, area_.w, area_.h},
+            first_that_fits(
+                canvas, {whole + whose + name, brief + whose + name, brief + name, has_cam ? plot_.y().name() : brief},
+                bold, room));
         canvas.rectangle(area_);
         canvas.fill(close_up_background(context_.look.palette));
         if (!has_cam) return;
@@ -180,14 +180,12 @@ class CloseUpPanel final : public FilmPanel {
         const Palette& p = context_.look.palette;
         const double u = context_.look.unit, longest = 0.55 * area_.h;
         const Vec2 foot = at(0, near.gap / 2);
-        // Both forces have the same scale; a short arrow has a head of half its length.
+        // Both forces have the same scale; a short arrow is a small one.
         const auto arrow = [&](double force, Vec2 way) {
-            const double length = longest * std::min(1.0, force / context_.scales.largest_force);
-            if (length > 5 * u)
-                canvas.arrow(foot, foot + way * length, {p.contact, 4 * u}, {std::min(16 * u, 0.5 * length)});
+            const double length = longest * std::min(1.0, force / context_.scales.largest_force),
+                         size = std::min(u, length / 32);
+            canvas.arrow(foot, foot + way * length, {p.contact, 4 * size}, {16 * size});
         };
-        canvas.circle(foot, 3.5 * u);
-        canvas.fill(p.contact);
         arrow(near.force, {0, -1});
         arrow(std::abs(near.friction), {near.friction > 0 ? 1.0 : -1.0, 0});
     }

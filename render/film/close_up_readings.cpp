@@ -8,19 +8,6 @@
 #include "render/plot/ticks.hpp"
 
 namespace beamcam::render {
-namespace {
-
-// Draws a word and a number that ends at `right`; the place of the word does not depend on the number.
-void draw_reading(Canvas& canvas, Vec2 right, const std::string& word, const std::string& number, const char* widest,
-                  TextStyle style) {
-    style.align = HAlign::right;
-    canvas.text(right, number, style);
-    const double room = std::max(canvas.measure(number, style).w, canvas.measure(widest, style).w);
-    canvas.text(right - Vec2{room + 0.4 * style.size, 0}, word, style);
-}
-
-}  // namespace
-
 bool sticks(const sim::Problem& problem, double force, double friction) {
     constexpr double kRounding = 1e-6;
     const auto* law = std::get_if<sim::StickSlipFriction>(&problem.contact.friction);
@@ -39,19 +26,31 @@ void CloseUpReadings::draw(Canvas& canvas, const sim::Pose& pose, double face) c
                                : unit.factor != 1e-6 || size >= 1                       ? quantity(size, "m")
                                : size < 1e-3 ? fmt::format("{}\u00A0µm", fixed(size * 1e6, size < 1e-5 ? 1 : 0))
                                              : fmt::format("{}\u00A0mm", fixed(size * 1e3, size < 0.1 ? 1 : 0));
-    draw_reading(
-        canvas, {plot.right(), box.y + 26 * u}, context.look.translate(deep ? "penetration" : "gap"), amount,
-        "00.0\u00A0mm",
-        {.size = context.look.letters.heading, .color = deep ? p.contact : p.motion, .weight = Weight::medium});
+    // The place of the word does not depend on the number. Both words have room, or both symbols are in their place.
+    const TextStyle style{.size = context.look.letters.heading,
+                          .color = deep ? p.contact : p.motion,
+                          .weight = Weight::medium,
+                          .align = HAlign::right,
+                          .tabular = true};
+    const Vec2 right{plot.right(), box.y + 26 * u};
+    const double widest = std::max(canvas.measure(amount, style).w, canvas.measure(kWidestGap, style).w) + 8 * u;
+    const bool words =
+        canvas.measure("$y$ / µm" + context.look.translate("penetration"), style).w + 16 * u + widest <= plot.w;
+    canvas.text(right, amount, style);
+    canvas.text(right - Vec2{widest, 0},
+                words  ? context.look.translate(deep ? "penetration" : "gap")
+                : deep ? "$δ$"
+                       : "$g$",
+                style);
     if (!std::holds_alternative<sim::StickSlipFriction>(motion.problem.contact.friction) || !(near.force > 0)) return;
     const double line = plot.y + 2 * u + 1.1 * context.look.letters.words;
     const bool on_beam = face > line;
-    const TextStyle style{.size = context.look.letters.words,
+    const TextStyle state{.size = context.look.letters.words,
                           .color = p.ink,
                           .align = HAlign::right,
                           .halo = on_beam ? mix(close_up_background(p), p.motion, 0.30) : close_up_background(p)};
     canvas.text({plot.right() - 10 * u, line},
-                context.look.translate(sticks(motion.problem, near.force, near.friction) ? "sticks" : "slides"), style);
+                context.look.translate(sticks(motion.problem, near.force, near.friction) ? "sticks" : "slides"), state);
 }
 
 }  // namespace beamcam::render

@@ -18,6 +18,7 @@ struct CloseUpReadings {
     void draw(Canvas& canvas, const sim::Pose& pose, double face) const;
 };
 
+inline constexpr const char* kWidestGap = "00.0\u00A0mm";
 // Of its plot.
 inline Color close_up_background(const Palette& p) { return p.tint(p.grid, 0.35); }
 

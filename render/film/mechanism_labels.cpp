@@ -175,7 +175,7 @@ std::optional<ForceArrow> force_arrow_of(const sim::Pose& pose, const DrawnBeam&
     return ForceArrow{beam.contact->on_disc, beam.contact->normal, pose.nearest->force};
 }
 
-// The arrow's length is in proportion to the force. A force whose arrow is shorter than its head has no letter.
+// The arrow's length is in proportion to the force. An arrow shorter than its usual head has no letter.
 void draw_force(const MechanismScene& s) {
     const std::optional<ForceArrow> arrow = force_arrow_of(s.pose, s.beam);
     if (!arrow) return;
@@ -184,11 +184,11 @@ void draw_force(const MechanismScene& s) {
         force_arrow_length(std::min(1.0, arrow->force / s.at.context.scales.arrow_force), s.at.small, marks);
     const Color color = s.at.palette.contact;
     const Vec2 flat_foot = s.at.px(arrow->foot), n{arrow->normal.x, -arrow->normal.y}, foot = s.on(flat_foot);
-    s.canvas.circle(foot, 5 * marks);
+    const double head = 19 * marks, size = marks * std::min(1.0, length / (2 * head));  // a short arrow is a small one
+    s.canvas.circle(foot, 5 * size);
     s.canvas.fill(color);
-    if (length > 7 * marks)
-        s.canvas.arrow(foot, s.on(flat_foot + n * length), {color, 4 * marks}, {std::min(19 * marks, 0.7 * length)});
-    if (length > 19 * marks)
+    s.canvas.arrow(foot, s.on(flat_foot + n * length), {color, 4 * size}, {19 * size});
+    if (length > head)
         draw_letter(s, foot, s.on(flat_foot + n * force_label_distance(length, depth, s.at.unit)), "$F$", color);
 }
 

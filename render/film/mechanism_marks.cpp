@@ -23,8 +23,8 @@ static std::optional<Box> box_of_name(const MechanismScene& s, const std::vector
 }
 
 // The straight beam at the angle of the hub, where the tip of the drawn beam is visibly elsewhere. In stills and in
-// slow motion, which give time to read it, the line has its name, and there is none without room for that. The
-// horizontal is a line of its own, and compared motions have lines of their own.
+// slow motion of one motion, which give time to read it, the line has its name, and there is none without room for
+// that. The horizontal is a line of its own, and compared motions have lines of their own.
 void draw_undeflected(const MechanismScene& s) {
     constexpr double kApart = 8, kSlow = 0.1;  // [design px]; of real time
     if (!s.at.labelled() || s.at.ghosts) return;
@@ -42,7 +42,7 @@ void draw_undeflected(const MechanismScene& s) {
     if (std::isnan(line.back().x)) return;
     const FilmSetup& setup = *s.at.context.setup;
     const bool slow = setup.speeds.empty() ? setup.frames() == 1 : setup.speeds[std::size_t(s.frame)] <= kSlow;
-    if (slow) {
+    if (slow && s.at.context.members() == 1) {
         const TextStyle style{.size = s.at.context.look.letters.words, .color = s.at.palette.muted};
         const std::string word = s.at.context.look.translate("undeflected");
         const std::optional<Box> box =
@@ -67,12 +67,14 @@ Color ink_on_disc(const MechanismScene& s) {
 void draw_disc_marks(const MechanismScene& s, const Trace& trace) {
     const DiscShape& d = *s.shape.disc;
     const double inset = std::min(7 * s.at.unit, 0.1 * d.radius), n = static_cast<double>(trace.rim.size());
-    stroke_places(s.canvas, s.at.context, trace.rim, inset, [&](std::size_t i) {
+    const auto piece = [&](std::size_t i) {
         const double share = (static_cast<double>(i) + 0.5) / n, wide = 1.7 / n;
         s.canvas.move_to(s.on_disc(d.rim(share - wide, inset)));
         s.canvas.line_to(s.on_disc(d.rim(share, inset)));
         s.canvas.line_to(s.on_disc(d.rim(share + wide, inset)));
-    });
+    };
+    stroke_places(s.canvas, s.at.context, trace.rim, inset, piece,
+                  [&](double share) { return force_color(s.at.palette, share); });
     if (d.radius < 26 * s.at.marks) return;
     const Color ink = ink_on_disc(s);
     const double apart = norm(d.centre - d.axis), pen = std::max(s.at.marks, 0.45);
@@ -106,10 +108,15 @@ void draw_beam_trace(const MechanismScene& s, const Trace& trace) {
                    back = s.px(s.beam.back(i) * (1 - part) + s.beam.back(i + 1) * part);
         return face + (back - face) * (inset / norm(back - face));
     };
-    stroke_places(s.canvas, s.at.context, trace.beam, 5 * s.at.unit, [&](std::size_t i) {
+    const auto piece = [&](std::size_t i) {
         s.canvas.move_to(at(static_cast<double>(i) - 1.2));
         s.canvas.line_to(at(static_cast<double>(i) + 2.2));
-    });
+    };
+    // Not in a colour of the moment.
+    const Palette& p = s.at.palette;
+    const Color ink = contrast(p.ink, p.moment[2]) > contrast(p.paper, p.moment[2]) ? p.ink : p.paper;
+    stroke_places(s.canvas, s.at.context, trace.beam, 5 * s.at.unit, piece,
+                  [&](double share) { return ink.faded(0.3 + 0.6 * share); });
 }
 
 }  // namespace beamcam::render

@@ -14,6 +14,7 @@
 
 #include "render/film/mechanism_labels.hpp"
 #include "render/film/panel.hpp"
+#include "render/gl/bodies.hpp"
 #include "render/mechanism/cam_outline.hpp"
 #include "render/mechanism/exaggeration.hpp"
 #include "render/plot/labels.hpp"
@@ -223,10 +224,11 @@ std::string html_page(const FilmSetup& setup) {
     for (int k = 0; k < context.frames(); ++k) all.push_back(instant_of(context, k, depth, thickness));
     add_ends_of_contacts(context, all);
     const Palette& p = context.look.palette;
+    const Materials body = materials(p);
     const std::string colors = fmt::format(
-        R"({{"paper":{},"ink":{},"muted":{},"faint":{},"grid":{},"motion":{},"contact":{},"steel":{},"edge":{},"beam":{}}})",
-        css(p.paper), css(p.ink), css(p.muted), css(p.faint), css(p.grid), css(p.motion), css(p.contact), css(p.steel),
-        css(p.steel_edge), css(mix(p.paper, p.motion, 0.28)));
+        R"({{"paper":{},"ink":{},"muted":{},"faint":{},"grid":{},"motion":{},"contact":{},"cam":{},"hub":{},"pin":{},"bracket":{},"beam":{}}})",
+        css(p.paper), css(p.ink), css(p.muted), css(p.faint), css(p.grid), css(p.motion), css(p.contact), css(body.cam),
+        css(body.housing), css(body.pin), css(body.bracket), css(p.moment[2]));
     const std::string data = fmt::format(
         R"({{"title":{},"factor":{:.9g},"tolerance":{:.9g},"length":{:.9g},"thickness":{:.9g},"hub":{:.9g},"arc":{:.9g},"force":{:.9g},)"
         R"("degrees":{},"colors":{},"cam":{},"impacts":{},{}}})",

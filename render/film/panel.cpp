@@ -11,6 +11,7 @@
 #include "render/mechanism/exaggeration.hpp"
 #include "render/plot/ticks.hpp"
 #include "render/plot/user_text.hpp"
+#include "sim/beam/modes.hpp"
 #include "sim/cam/motion_law.hpp"
 
 namespace beamcam::render {
@@ -22,10 +23,9 @@ using sim::Pose;
 
 bool is_impulsive(const Motion& motion) { return motion.problem.contact.model == sim::ContactModel::restitution; }
 
-// A film that ends where impulses become a lasting contact has a force only in its last row.
 bool has_force(const Motion& motion) {
     const auto* force = column(motion.chart, {ChannelKind::contact_force, 0});
-    return force && std::ranges::count_if(*force, [](double v) { return v > 0; }) > (is_impulsive(motion) ? 1 : 0);
+    return force && std::ranges::any_of(*force, [](double v) { return v > 0; });
 }
 
 // A deflection with more periods than a chart can show, of a fifth of its range or more, has a window of some of them.
@@ -63,8 +63,7 @@ std::vector<PanelSpec> standard(const FilmSetup& setup) {
         if (s.kind == PanelKind::close_up) return !setup.others.empty() || (still && !in_contact);
         const ChannelKind kind = s.channels.front().kind;
         return (kind == ChannelKind::tip_deflection && !column(setup.chart, s.channels.front())) ||
-               (kind == ChannelKind::contact_force &&
-                (!force || (s.by_collision && setup.others.empty() && is_impulsive(setup))));
+               (kind == ChannelKind::contact_force && !force);
     });
     return specs;
 }
@@ -74,10 +73,12 @@ std::vector<PanelSpec> standard(const FilmSetup& setup) {
 std::vector<PanelSpec> standard_panels(const sim::Problem& problem, bool slow_motion) {
     const auto strip = [](ChannelKind kind) { return PanelSpec{.kind = PanelKind::strip, .channels = {{kind, 0}}}; };
     if (!problem.cam) return {strip(ChannelKind::theta), strip(ChannelKind::tip_deflection)};
-    PanelSpec force = strip(ChannelKind::contact_force);
-    force.by_collision = slow_motion;
-    if (slow_motion) return {strip(ChannelKind::theta), force, {.kind = PanelKind::close_up}};
-    return {strip(ChannelKind::theta), force};
+    // Impulses have no force that a chart could show.
+    const bool impulses = problem.contact.model == sim::ContactModel::restitution;
+    PanelSpec contact = strip(impulses ? ChannelKind::gap : ChannelKind::contact_force);
+    contact.by_collision = slow_motion && !impulses;
+    if (slow_motion) return {strip(ChannelKind::theta), contact, {.kind = PanelKind::close_up}};
+    return {strip(ChannelKind::theta), contact};
 }
 
 std::vector<Channel> chart_channels(const std::vector<PanelSpec>& panels) {
@@ -235,7 +236,22 @@ sim::Pose FilmContext::pose(int member, int frame) const {
     sim::Pose out = motion(member).pose(static_cast<std::size_t>(frame));
     if (out.nearest && out.nearest->force < kForceRounding * scales.largest_force)
         out.nearest->force = out.nearest->friction = 0;
+    for (double& value : out.moment) value *= moment_share(member, frame);
     return out;
+}
+
+// With fewer than six frames a period of the first vibration the colour of the moment fades, with three there is none:
+// it would show the frame rate. A still has all of it.
+double FilmContext::moment_share(int member, int frame) const {
+    constexpr double kNone = 3;  // frames a period
+    if (frames() == 1) return 1;
+    const double speed = setup->speeds.empty() ? 1 : setup->speeds[static_cast<std::size_t>(frame)];
+    return std::clamp(scales.periods[static_cast<std::size_t>(member)] * setup->fps / (kNone * speed) - 1, 0.0, 1.0);
+}
+
+double first_period(const sim::Problem& problem) {
+    const std::vector<sim::Mode> modes = sim::natural_modes(problem);
+    return modes.empty() ? std::numeric_limits<double>::infinity() : sim::kFullTurn / modes.front().omega;
 }
 
 void FilmContext::choose_scales() {
@@ -265,7 +281,10 @@ void FilmContext::choose_scales() {
         }
         // A moment that bends the beam by less than a billionth of its length is a rounding error.
         const double negligible = 1e-9 * one.problem.beam.bending_stiffness() / one.problem.beam.length;
-        if (flexible && largest > negligible) moment = std::max(moment, largest);
+        scales.periods.push_back(first_period(one.problem));
+        bool seen = false;
+        for (int k = 0; k < frames() && !seen; ++k) seen = moment_share(m, k) > 0;
+        if (flexible && seen && largest > negligible) moment = std::max(moment, largest);
     }
     if (!std::isfinite(scales.exaggeration)) scales.exaggeration = 1;
     scales.arrow_force = force;
@@ -313,7 +332,7 @@ void draw_heading(Canvas& canvas, const FilmContext& context, const Box& box, co
 }
 
 void stroke_places(Canvas& canvas, const FilmContext& context, const std::vector<float>& places, double width,
-                   const std::function<void(std::size_t)>& path) {
+                   const std::function<void(std::size_t)>& path, const std::function<Color(double)>& color) {
     constexpr int kShades = 12;
     if (!(context.scales.force > 0)) return;
     std::array<std::vector<std::size_t>, kShades> shade;
@@ -325,7 +344,7 @@ void stroke_places(Canvas& canvas, const FilmContext& context, const std::vector
     for (int k = 0; k < kShades; ++k) {
         if (shade[static_cast<std::size_t>(k)].empty()) continue;
         for (std::size_t i : shade[static_cast<std::size_t>(k)]) path(i);
-        canvas.stroke({force_color(context.look.palette, (k + 0.5) / kShades), width, {}, Cap::butt});
+        canvas.stroke({color((k + 0.5) / kShades), width, {}, Cap::butt});
     }
 }
 

@@ -36,7 +36,8 @@ struct FilmScales {
     double force = 0;        // end of the colour scale: the largest force, rounded up; 0: no force [N]
     double arrow_force = 0;  // largest force of all frames, that of the longest arrow [N]
     double moment = 0;       // end of the colour scale; 0: no colouring [N m]
-    bool turns = false;      // θ is in turns instead of degrees, because it exceeds two
+    std::vector<double> periods;  // of the first vibration of each motion [s]
+    bool turns = false;           // θ is in turns instead of degrees, because it exceeds two
 };
 
 // Colours, sizes and language of a film.
@@ -74,7 +75,9 @@ struct FilmContext {
     const Motion& motion(int member) const {
         return member == 0 ? static_cast<const Motion&>(*setup) : setup->others[static_cast<std::size_t>(member - 1)];
     }
-    sim::Pose pose(int member, int frame) const;  // without forces that are rounding
+    // Without forces that are rounding, and with that share of the moment.
+    sim::Pose pose(int member, int frame) const;
+    double moment_share(int member, int frame) const;
     // For a motion without a cam: one that has a cam, whose section position the drawing takes over. Otherwise null.
     const sim::Problem* section_reference(int member) const;
     // Factor from SI to the unit in which a channel is displayed, and that unit.
@@ -129,6 +132,8 @@ std::unique_ptr<FilmPanel> make_panel(const FilmContext& context, const PanelSlo
 
 // ---- helpers that panels share ------------------------------------------------------------------
 
+double first_period(const sim::Problem& problem);  // of the natural vibrations; infinity for a rigid beam [s]
+
 // The column of a channel; null if the table has none.
 const std::vector<double>* column(const sim::Table& table, sim::Channel channel);
 // Linear interpolation in an increasing column of times; NaN outside and beside undefined rows.
@@ -136,9 +141,9 @@ double value_at(const std::vector<double>& times, const std::vector<double>& val
 // Suffix of a panel's heading if the film has several motions: ", " and the motion's label (markup).
 std::string motion_suffix(const FilmContext& context, int member);
 void draw_heading(Canvas& canvas, const FilmContext& context, const Box& box, const std::string& markup);
-// Strokes every bin with a force in the colour of its force, strong over weak. `path(i)` adds the path of bin i.
+// Strokes every bin with a force, strong over weak. `path(i)` adds the path of bin i. `color`: of a share of the scale.
 void stroke_places(Canvas& canvas, const FilmContext& context, const std::vector<float>& places, double width,
-                   const std::function<void(std::size_t)>& path);
+                   const std::function<void(std::size_t)>& path, const std::function<Color(double)>& color);
 inline Vec2 down(double angle) { return {std::cos(angle), -std::sin(angle)}; }  // unit vector in pixels
 
 }  // namespace beamcam::render

@@ -2,14 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 #include <span>
 
 #include "render/film/chart_panel.hpp"
 #include "render/plot/channel_label.hpp"
 #include "render/plot/ticks.hpp"
 #include "sim/beam/drive.hpp"
-#include "sim/beam/modes.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -37,9 +35,8 @@ TimedPath thinned(const std::vector<double>& times, const std::vector<Vec2>& poi
 double smoothing_time(const Motion& motion) {
     constexpr double kSlow = 0.1;  // of the time of the chart
     const auto* t = column(motion.chart, {ChannelKind::t, 0});
-    const std::vector<sim::Mode> modes = sim::natural_modes(motion.problem);
-    if (!t || t->empty() || modes.empty() || sim::is_prescribed(motion.problem.hub.drive)) return 0;
-    const double period = 2 * std::numbers::pi / modes.front().omega;
+    if (!t || t->empty() || sim::is_prescribed(motion.problem.hub.drive)) return 0;
+    const double period = first_period(motion.problem);
     return period < kSlow * (t->back() - t->front()) ? period : 0;
 }
 

@@ -87,8 +87,10 @@ class CollisionPanel final : public FilmPanel {
         std::vector<Vec2> peaks;
         for (const Channel channel : spec_.channels)
             for (int m = 0; m < context_.members(); ++m) readings.push_back(reading(context_, m, frame, channel));
-        for (int m = 0; peaks_ && m < context_.members(); ++m)
-            peaks.push_back(peaks_->of(m, now) - Vec2{start(which), 0});
+        for (int m = 0; peaks_ && m < context_.members(); ++m) {
+            const Vec2 peak = peaks_->of(m, now) - Vec2{start(which), 0};
+            peaks.push_back(peak.x < 0 ? Vec2{kNan, kNan} : peak);  // of an earlier collision
+        }
         chart.draw_moving(canvas, now - start(which), readings, peaks);
     }
 
@@ -123,7 +125,9 @@ class CollisionPanel final : public FilmPanel {
                 time = {first - kShown - span.low, first - span.low};
             else if (context_.clock.span.low > shown_until && span.high > context_.clock.span.low)
                 time = {context_.clock.span.low - span.low, std::min(span.high, context_.clock.span.high) - span.low};
-            if (context_.members() == 1) c.words = context_.look.translate("Collision {}", spans_[which].number) + ", ";
+            c.words = (context_.members() > 1 ? context_.look.translate("$t$_{0}: first touch")
+                                              : context_.look.translate("Collision {}", spans_[which].number)) +
+                      ", ";
         }
         const Prefix prefix = time.high < 1 ? prefix_for(time.high) : Prefix{"", 1};
         c.set_time(time, prefix.factor, fmt::format("($t$ − $t$_{{0}}) / {}s", prefix.symbol));

@@ -8,14 +8,7 @@
 #include "render/mechanism/mechanism.hpp"
 
 namespace beamcam::render {
-namespace {
 
-// ---- materials ---------------------------------------------------------------------------------
-
-// The beam has the colours of its moment, between which it is satin aluminium.
-struct Materials {
-    Color cam, track, housing, pin, bracket;
-};
 Materials materials(const Palette& palette) {
     const bool dark = palette.paper.g < 0.5;
     return {.cam = rgb(0x5B6675),
@@ -24,6 +17,8 @@ Materials materials(const Palette& palette) {
             .pin = rgb(0xC9D1DC),
             .bracket = rgb(dark ? 0x4A5361 : 0x8C97A6)};
 }
+
+namespace {
 
 constexpr double kClampDepth = 0.6, kBracketFront = -0.75;                       // as the depths of the header
 constexpr double kShadow = 0.14, kOnFloor = 0.2, kContact = 0.4, kFloor = 0.06;  // opacities

@@ -23,6 +23,12 @@ struct ShadowVertex {
     float opacity = 0, grey = 0;
 };
 
+// The beam has the colours of its moment, between which it is satin aluminium.
+struct Materials {
+    Color cam, track, housing, pin, bracket;
+};
+Materials materials(const Palette& palette);
+
 // What catches the shadows.
 enum class Ground { none, wall, floor };
 

@@ -10,8 +10,8 @@
 namespace beamcam::render {
 namespace {
 
-constexpr double kBetweenReadings = 18;                                  // [design px]
-constexpr double kBetweenRows = 1, kLowestRow = 0.9, kAbovePeak = 1.25;  // in sizes of the numbers
+constexpr double kBetweenReadings = 18;                                 // [design px]
+constexpr double kBetweenRows = 1, kLowestRow = 0.9, kAbovePeak = 0.5;  // in sizes of the numbers
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 void draw_all(Canvas& canvas, const std::vector<figure::Plot>& rows, const figure::Interval& part) {
@@ -55,17 +55,14 @@ void Chart::make_rows(const Fonts& fonts) {
     const auto wanted = static_cast<double>(c_.rows);
     const double gap = std::round(kBetweenRows * style_.numbers), high = std::floor((area_.h + gap) / wanted - gap);
     const std::size_t rows = high < kLowestRow * style_.numbers ? 1 : c_.rows;
-    const double above = kAbovePeak * style_.numbers / (rows == 1 ? area_.h : high);  // share of a row
-    const double room = c_.peak.empty() || above > 0.5 ? 1 : std::max(1.0, 1 / (1.2 * (1 - above)));
     for (std::size_t k = 0; k < rows; ++k) {
         figure::Panel& row = panels_.emplace_back(c_.panel);
-        *row.y.to *= room;
         if (rows == 1) break;
         row.series.assign(c_.panel.series.begin() + std::ptrdiff_t(rows), c_.panel.series.end());
         row.series.push_back(c_.panel.series[k]);
         const std::vector<double>& values = row.series.back().y;
         const double largest = values.empty() ? 0 : std::ranges::max(values);
-        if (largest > 0 && largest < 0.05 * c_.values().high) row.y.to = 1.2 * room * largest;
+        if (largest > 0 && largest < 0.05 * c_.values().high) row.y.to = 1.2 * largest;
         std::erase_if(row.events, [k](const figure::EventTick& at) { return at.lane != static_cast<int>(k); });
         for (figure::EventTick& at : row.events) at.lane = 0, at.lanes = 1;
     }
@@ -165,15 +162,16 @@ void Chart::draw_cursor(Canvas& canvas, double x, std::span<const double> readin
     }
 }
 
-// Centred above its own peak. Returns the values that do not fit there: between the axis and the cursor, inside the
-// axes, with nothing higher of the curve under them, in a row of their own.
+// Centred above its own peak, if that does not read zero. Returns the values that do not fit there: between the axis
+// and the cursor, below the heading or the row above, with nothing higher of the curve under them, in a row of their
+// own.
 std::vector<double> Chart::draw_peaks(Canvas& canvas, const std::vector<figure::Plot>& rows, double cursor,
                                       std::span<const Vec2> peaks) const {
     const double size = style_.numbers, end = std::min(cursor - 8 * style_.unit, area_.right());
     std::vector<double> left_out;
     for (std::size_t i = 0; i < peaks.size(); ++i) {
         left_out.push_back(kNan);
-        if (std::isnan(peaks[i].y)) continue;
+        if (!(plots_[0].y().tick_value(peaks[i].y) >= 0.5 * ten_to(-digits_))) continue;
         const figure::Plot& row = row_of(rows, i);
         const Vec2 at = row.at(peaks[i].x, peaks[i].y);
         const TextStyle style{.size = size,
@@ -200,7 +198,7 @@ TextStyle Chart::heading_style() const {
     return {.size = style_.letters, .color = palette_.ink, .weight = Weight::semibold};
 }
 TextStyle Chart::reading_style(Color color) const {
-    return {.size = style_.letters, .color = color, .weight = Weight::medium, .align = HAlign::right};
+    return {.size = style_.letters, .color = color, .weight = Weight::medium, .align = HAlign::right, .tabular = true};
 }
 
 Color Chart::reading_color(std::size_t curve) const {
@@ -214,8 +212,7 @@ void Chart::draw_heading(Canvas& canvas) const {
 
 std::string Chart::heading_text(Canvas& canvas) const {
     const std::string name = plots_[0].y().name();
-    const double peaks = static_cast<double>(c_.rows) * canvas.measure(c_.peak, reading_style({})).w,
-                 room = area_.w - reading_width(canvas, true, true) - peaks;
+    const double room = area_.w - reading_width(canvas, true, true);
     return first_that_fits(canvas, {c_.words + name, c_.short_words + name, name}, heading_style(), room);
 }
 

@@ -70,9 +70,8 @@ struct Number {
     std::string* label = nullptr;
 };
 
-// The middle of the name of an axis in the row of its numbers below the plot: at the right end if the last number
-// leaves room there, otherwise before the last number, as DIN 461 recommends. If the numbers move, those at the right
-// end give way and are omitted.
+// The middle of the name of an axis in the row of its numbers below the plot: right of the last number, or left of the
+// first, or in place of the last. If the numbers move, those where the name is at the right end give way.
 double place_name(const Painter& painter, std::vector<Tick>& ticks, const Box& plot, const std::string& name,
                   const TextStyle& style, double unit, bool moves) {
     std::vector<Number> numbers;
@@ -83,14 +82,13 @@ double place_name(const Painter& painter, std::vector<Tick>& ticks, const Box& p
         numbers.push_back({at - half, at + half, &tick.label});
         if (moves && at - half <= plot.x - 20 * unit) tick.label.clear();
     }
-    const double wide = painter.measure(name, style).w, gap = 10 * unit, end = plot.right() + 8 * unit;
-    const double at_end = end - wide / 2, least = end - wide - gap;
-    const std::size_t n = numbers.size();
-    if (n == 0 || numbers.back().right < least) return at_end;
-    if (!moves && n > 1) return (numbers[n - 2].right + numbers.back().left) / 2;
+    const double wide = painter.measure(name, style).w, gap = 14 * unit, end = plot.right() + 8 * unit,
+                 least = end - wide - gap, beside = plot.x - 4 * style.size;  // there is the column of numbers
+    if (!moves && !numbers.empty() && numbers.back().right >= least && numbers.front().left - gap - wide >= beside)
+        return numbers.front().left - gap - wide / 2;
     for (const Number& number : numbers)
         if (number.right >= least) number.label->clear();
-    return at_end;
+    return end - wide / 2;
 }
 
 }  // namespace
@@ -104,13 +102,12 @@ void Plot::fit_x(const Painter& on, const Axis& axis, const Extent& data) {
         x_.emplace(axis, data, std::clamp(static_cast<int>(width_ / (4.2 * style_->numbers)), 3, 9), what);
         return;
     }
-    // As many numbers as leave room between each other, for the name of the axis if they do not move.
+    // As many numbers as leave room between each other.
     const auto most_that_fit = static_cast<int>(width_ / ((axis.grid ? 85 : 75) * style_->unit));
     for (int most = std::clamp(most_that_fit, 2, axis.grid ? 6 : 7); most >= 2; --most) {
         x_.emplace(axis, data, most, what);
         const auto [low, high] = x_->ends();
-        const double between = moves_ ? 14 * style_->unit : on.measure(x_->name(), numbers).w + 20 * style_->unit;
-        const double wide = on.measure(fixed(high, decimals_of(x_->step())), numbers).w + between;
+        const double wide = on.measure(fixed(high, decimals_of(x_->step())), numbers).w + 14 * style_->unit;
         if (x_->step() / (high - low) * width_ >= wide) break;
     }
 }

@@ -121,8 +121,11 @@ std::string energy_at_apex(double touch, double apex, const sim::Problem& proble
     for (const Part& each : sources)  // parts below half a percent are left out
         if (each.size > 0.005 * all)
             from += (from.empty() ? "" : ", ") + phrase(lang, each.name, quantity(each.size, "J"));
+    double sum_so_far = 0;  // its rounded steps add up to 100 %
     for (const Part& each : uses)
-        if (const double percent = std::round(100 * each.size / all); percent > 0)
+        if (const double before = std::round(100 * sum_so_far / all),
+            percent = std::round(100 * (sum_so_far += std::max(each.size, 0.0)) / all) - before;
+            percent > 0)
             to += (to.empty() ? "" : ", ") + phrase(lang, each.name, fmt::format("{:.0f} %", percent));
     return phrase(lang, "energy {}", from) + ": " + to;
 }
@@ -137,7 +140,7 @@ LayoutNode impact_layout(bool has_force, const Size& size) {
                                    .channels = {{ChannelKind::contact_force, 0}},
                                    .by_collision = true});
     constexpr int kSmall = 540;  // height of a picture without room for four panels [px]
-    if (size.width < size.height) return group(rows, {near, group(columns, {overview, contact}, 1.4), force});
+    if (size.width < size.height) return group(rows, {near, contact, force});
     if (size.height < kSmall) return group(columns, {leaf({.kind = PanelKind::mechanism}, 1.55), force});
     return group(rows, {group(columns, {near, group(rows, {overview, contact})}, 1.9), force});
 }
@@ -191,7 +194,7 @@ PictureOutput told_impact(PictureOutput film, const Scene& scene, const sim::Res
     tell_collision(film, c, liftoff);
     if (rebounds)
         tell(film, *span.to, energy_at_apex(touch, *span.to, scene.problem, find, film.view.lang), kHold);
-    else
+    else if (!c.t_end)
         span.hold = kHold;
     film.view.keyframes = {
         {.at = at_time(touch), .zoom = kNear, .follow = render::Anchor{render::Anchor::Kind::contact}, .over = kMove},

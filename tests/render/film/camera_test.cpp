@@ -27,7 +27,7 @@ TEST(Camera, WithoutMovesItIsTheOneThatShowsAll) {
 
 TEST(Camera, WhatItFollowsStandsInTheMiddle) {
     const std::vector<Followed> one{{{0.4, 0.3}, {0.2, 0.1}, {0.25, 0}}};
-    for (const auto& [kind, at] : {std::pair{Anchor::Kind::tip, Vec2{0.4, 0.3}},
+    for (const auto& [kind, at] : {std::pair{Anchor::Kind::tip, Vec2{0.38, 0.285}},  // a part of the beam behind it
                                    {Anchor::Kind::contact, Vec2{0.2, 0.1}},
                                    {Anchor::Kind::cam, Vec2{0.25, 0}},
                                    {Anchor::Kind::hub, Vec2{0, 0}},
@@ -45,7 +45,7 @@ TEST(Camera, FollowsTheMeanOfWhatVibrates) {
     const std::vector<CameraFrame> path = seen({.zoom = 2, .follow = {Anchor::Kind::tip, {}}}, {}, all);
     for (std::size_t k = 20; k < 100; ++k) {
         const Vec2 middle = path[k].camera.to_world(kBox.centre());
-        EXPECT_NEAR(middle.x, 0.01 * static_cast<double>(k), 1e-9);
+        EXPECT_NEAR(middle.x, 0.00875 * static_cast<double>(k), 1e-9);
         EXPECT_NEAR(middle.y, 0, 2e-3);
     }
 }

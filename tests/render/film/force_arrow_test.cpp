@@ -38,8 +38,8 @@ TEST(ForceArrows, AreInProportionToTheForce) {
             const bool close = kind == PanelKind::close_up;
             const Vec2 along = close ? Vec2{0, 1} : g.beam.contact->normal;
             const double u = g.layout.unit;
-            const Vec2 foot =
-                close ? Vec2{box.x + 70 * u + (box.w - 78 * u) / 2, 0} : g.camera.to_pixels(g.beam.contact->on_disc);
+            const Vec2 foot = close ? Vec2{plot_area(box, u, g.layout.letters.words).centre().x, 0}
+                                    : g.camera.to_pixels(g.beam.contact->on_disc);
             double top = -1e9, bottom = 1e9;
             for (int y = int(box.y + 46 * u); y < int(box.bottom()); ++y)
                 for (int x = int(box.x); x < int(box.right()); ++x) {
@@ -49,7 +49,7 @@ TEST(ForceArrows, AreInProportionToTheForce) {
                     if (difference(p, contact) < 0.02)
                         top = std::max(top, dot(along, off)), bottom = std::min(bottom, dot(along, off));
                 }
-            return top - bottom - (close ? 3.5 : 5) * u;  // the dot reaches below the arrow's foot
+            return top - bottom - (close ? 0 : 5) * u;  // the dot reaches below the arrow's foot
         };
         EXPECT_GT(length(2), 40) << type_of(kind).name;
         // Antialiasing hides about two pixels of the tip.

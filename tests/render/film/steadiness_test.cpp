@@ -84,6 +84,7 @@ TEST(GlSteadiness, AnExaggeratedBeamEntersTheLitCamNowhere) {
     SKIP_WITHOUT_GL();
     for (const double factor : {1.0, 20.0}) {
         FilmSetup setup = film_of(Style::lit, {.duration = 2.4, .amplitude = 6e-3}, factor);
+        setup.fps = 1e6;        // enough for the colours of the moment
         setup.impacts.clear();  // no rings, no traces, no arrows: only bodies, and the beam in one strong colour
         for (auto& column : setup.trace.values) column.clear();
         for (sim::Pose& pose : setup.poses) {
@@ -171,7 +172,7 @@ TEST(Steadiness, FiguresAreTabular) {
     const Fonts fonts(false);
     Canvas canvas(image, fonts);
     for (const Weight weight : {Weight::regular, Weight::medium, Weight::semibold}) {
-        const TextStyle style{.size = 30, .weight = weight};
+        const TextStyle style{.size = 30, .weight = weight, .tabular = true};
         const double zero = canvas.measure("00.00", style).w;
         for (const char* number : {"11.11", "47.19", "88.88"}) EXPECT_NEAR(canvas.measure(number, style).w, zero, 0.05);
         EXPECT_NEAR(canvas.measure("\u20071.11", style).w, zero, 0.05);
@@ -204,6 +205,7 @@ TEST(Steadiness, TheClockDoesNotPushItsNeighbours) {
 // amount.
 TEST(Steadiness, TheDrawnTipFollowsThePoseWithinATwentiethOfAPixel) {
     FilmSetup setup = film_of(Style::flat, {.duration = 0.5, .cam = false}, 1);
+    setup.fps = 1e6;  // enough for the colours of the moment
     const std::size_t n = setup.poses[0].centreline.size();
     for (std::size_t k = 0; k < setup.poses.size(); ++k) {
         sim::Pose& pose = setup.poses[k];
