@@ -13,10 +13,7 @@ namespace {
 
 constexpr int kColumns = 600, kStations = 129;  // a printed column resolves few more
 constexpr int kMostSamples = 64;                // of a column
-constexpr const char *kDeflections = "Deflection from the tangent at the root, along the beam and in time",
-                     *kMagnitudes =
-                         "Largest magnitude of the vibrating deflection from the tangent at the root, along the beam "
-                         "and in time";
+constexpr const char* kKymographTitle = "Deflection from the tangent at the root, along the beam and in time";
 
 // Instants per column: more than one where the vibration is faster than the columns, so that it is not aliased. Sixteen
 // in a period miss its largest deflection by less than 2 %.
@@ -79,7 +76,8 @@ FigureDrawing prepare_kymograph(const Scene& scene, const FigureOutput& how, Mot
         const auto& [problem, units, lang, end] = subject;
         Panel panel =
             kymograph_panel(deflections(result.poses[shown.poses], samples), shown, problem.beam.length, samples > 1);
-        std::string title = samples > 1 ? kMagnitudes : kDeflections;
+        std::string title = kKymographTitle;
+        if (samples > 1) title += fmt::format("; |$v$|: the largest in each of {} intervals", kColumns);
         Series hits{.name = "impact", .look = 6, .line = false, .every_point = true};  // black
         for (const sim::Impact& hit : strikes(problem, result.impacts, shown.from, shown.to))
             hits.add(hit.t_start, hit.x * measure_of("m", problem.beam.length).factor);
@@ -92,7 +90,7 @@ FigureDrawing prepare_kymograph(const Scene& scene, const FigureOutput& how, Mot
 }  // namespace
 
 extern const FigureType kKymograph{.name = "kymograph",
-                                   .title = kDeflections,
+                                   .title = kKymographTitle,
                                    .refusal = needs_bending,
                                    .maker = prepare_kymograph,
                                    .keys = {"from", "to"},

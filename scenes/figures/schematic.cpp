@@ -261,9 +261,16 @@ double letter_of(const FigureOutput& how) {
 
 FigureDrawing prepare_schematic(const Scene&, const FigureOutput& how, MotionRequests&) {
     return [letter = letter_of(how)](const Subject& subject, const MotionResults&) -> Figure {
-        Figure figure{.title = symbols_of(subject.problem),
-                      .panels = {{.shapes = Drawing(subject.problem, letter).shapes()}},
-                      .aspect = kAspect};
+        auto shapes = Drawing(subject.problem, letter).shapes();
+        render::Bounds extent;
+        for (const auto& shape : shapes) {
+            extent.add(shape.centre, shape.radius);
+            for (const Vec2 p : shape.points) extent.add(p);
+        }
+        // Of a wide drawing with room for labels.
+        const double aspect = std::min(kAspect, 0.15 + (extent.y1 - extent.y0) / (extent.x1 - extent.x0));
+        Figure figure{
+            .title = symbols_of(subject.problem), .panels = {{.shapes = std::move(shapes)}}, .aspect = aspect};
         add_caption(figure, std::vector{subject.problem}, subject.units);
         return figure;
     };

@@ -1,4 +1,6 @@
 // The beam at several instants and the cam at both ends, in lines.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -16,6 +18,7 @@ namespace {
 using sim::Vec2;
 
 constexpr int kShownPoses = 9, kPoseStations = 65;
+constexpr const char* kStrobeTitle = "The beam at equally spaced instants, from pale to dark";
 
 // The cam, and the line to its mark from the centre of a disc, or from the axis.
 void add_cam(const sim::Pose& pose, const sim::Problem& problem, render::Color color, Sketch& to,
@@ -140,21 +143,22 @@ FigureDrawing prepare_strobe(const Scene& scene, const FigureOutput& how, Motion
         // The shapes with a margin and room for labels.
         const double aspect =
             std::clamp(0.1 + 0.85 * (extent.y1 - extent.y0) / std::max(extent.x1 - extent.x0, 1e-12), 0.3, 1.1);
-        return {.panels = {std::move(panel)}, .aspect = aspect};
+        return {.title = fmt::format("{}{}; deflection to scale; the arrow at a tip is its speed at the last instant, "
+                                     "relative to its largest at these instants",
+                                     kStrobeTitle, subject.problem.cam ? ", and the cam at both ends" : ""),
+                .panels = {std::move(panel)},
+                .aspect = aspect};
     };
     return figure_of_motion(shown.motion, draw);
 }
 
 }  // namespace
 
-extern const FigureType kStrobe{
-    .name = "strobe",
-    .title =
-        "The beam at equally spaced instants, from pale to dark, and the cam at both ends; deflection to scale; the "
-        "arrow is the speed of the tip at the last instant, relative to its largest at these instants",
-    .refusal = no_refusal,
-    .maker = prepare_strobe,
-    .keys = {"from", "to"},
-    .ends = Instant{.kind = Instant::Kind::impact}};
+extern const FigureType kStrobe{.name = "strobe",
+                                .title = kStrobeTitle,
+                                .refusal = no_refusal,
+                                .maker = prepare_strobe,
+                                .keys = {"from", "to"},
+                                .ends = Instant{.kind = Instant::Kind::impact}};
 
 }  // namespace beamcam::scenes

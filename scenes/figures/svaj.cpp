@@ -14,7 +14,7 @@ namespace {
 constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr int kTurnRows = 2001;  // of the beam's motion
 constexpr double kSlow = 3;  // speeds of the lever: a faster hub, which rings or flies, would hide the lever's curve
-constexpr const char* kTitle = "The straight lever's angle on the cam and its derivatives by the turn of the cam";
+constexpr const char* kLeverTitle = "The straight lever's angle on the cam and its derivatives by the turn of the cam";
 
 // States over a turn from φ = 0. Where a derivative jumps there are two at the same turn.
 std::vector<sim::Lever::State> turn_of(const sim::Lever& lever) {
@@ -79,7 +79,7 @@ Figure svaj_figure(const Subject& subject, const sim::Result* result, std::size_
     }
     if (result) add_beam(problem, result->tables[table], angle.factor, lang, panels[0], panels[1]);
     Figure figure{
-        .title = kTitle, .panels = lettered(std::move(panels)), .stack = true, .share_x = true, .aspect = 1.7};
+        .title = kLeverTitle, .panels = lettered(std::move(panels)), .stack = true, .share_x = true, .aspect = 1.7};
     if (result) figure.title += "; dashed: the hub of the beam in the last turn";
     if (result)
         add_caption(figure, {{&problem, result}}, units);
@@ -111,6 +111,6 @@ std::optional<std::string> needs_lever(const Scene& scene) {
 
 }  // namespace
 
-extern const FigureType kSvaj{"svaj", kTitle, needs_lever, prepare_svaj};
+extern const FigureType kSvaj{"svaj", kLeverTitle, needs_lever, prepare_svaj};
 
 }  // namespace beamcam::scenes
