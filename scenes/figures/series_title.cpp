@@ -29,7 +29,7 @@ std::string panel_subject(const SeriesPanel& panel) {
 }
 
 std::string series_title(const SeriesKeys& keys) {
-    std::string all = keys.panels.size() == 1 ? panel_subject(keys.panels.front()) : "motion";
+    std::string all = keys.panels.size() == 1 && !keys.residuals ? panel_subject(keys.panels.front()) : "motion";
     all.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(all.front())));
     if (keys.against == "phase") return all + " against the phase of the cam";
     const auto against = sim::channel_named(keys.against);
