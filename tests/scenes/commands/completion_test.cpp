@@ -47,9 +47,9 @@ TEST(Examples, EachIsListedWithALineAndCopied) {
         ASSERT_EQ(shell(folder, "$BEAMCAM init mine --force -q --from " + name).code, 0);
         const Finished check = shell(folder, "$BEAMCAM check mine.json");
         EXPECT_EQ(check.code, 0) << name << check.err;
+        // The files of two scenes of one example have different names.
+        EXPECT_EQ(shell(folder, "$BEAMCAM plan mine.json | grep -c ' " + name + "[.-]'").out, "0\n") << name;
     }
-    EXPECT_EQ(shell(folder, "$BEAMCAM init --from fast-cam -q && grep -c fast-cam.mp4 fast-cam.json").out, "1\n");
-    EXPECT_EQ(shell(folder, "$BEAMCAM init quick --from fast-cam -q && grep -c quick.mp4 quick.json").out, "1\n");
     const Finished unknown = shell(folder, "$BEAMCAM init --from fast-can");
     EXPECT_EQ(unknown.code, 2);
     EXPECT_THAT(unknown.err, HasSubstr("fast-cam"));
