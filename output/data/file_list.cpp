@@ -85,16 +85,26 @@ std::optional<FileRecord> record_of(const std::string& line) {
                       text("mark"), text("stamp"), Origin{text("inputs"), text("version"), text("scene")}};
 }
 
-// The list, open and locked. A process that rewrites it replaces the file, so the lock of the old one is given up.
+// Another user's list becomes this user's, if the folder allows it.
+void take_over(const fs::path& list) {
+    try {
+        write_file(list, read_file(list));
+    } catch (const IoError&) {
+    }
+}
+
+// The list, open and locked; not open if another user's cannot be written. A process that rewrites it replaces the
+// file, so the lock of the old one is given up.
 Descriptor locked_list(const fs::path& list) {
     for (;;) {
         struct stat own = {}, present = {};
         if (lstat(list.c_str(), &present) == 0 && !is_list(present))
             throw IoError(fmt::format("cannot write {}: it is no plain file; remove it", list.string()));
         Descriptor opened(list, O_RDWR | O_APPEND | O_CREAT | O_NOFOLLOW | O_NONBLOCK);
-        if (!opened && errno == EACCES && is_list(list)) {  // another user's, in a folder of both
-            write_file(list, read_file(list));
+        if (!opened && errno == EACCES && is_list(list)) {
+            take_over(list);
             opened = Descriptor(list, O_RDWR | O_APPEND | O_NOFOLLOW | O_NONBLOCK);
+            if (!opened && errno == EACCES) return opened;
         }
         if (!opened || fstat(opened.number(), &own) != 0) throw write_error(list, errno);
         if (!is_list(own)) continue;  // it was replaced just now
@@ -107,6 +117,7 @@ Descriptor locked_list(const fs::path& list) {
 void append(const fs::path& directory, const FileRecord& record) {
     const fs::path list = directory / FileList::kFileName;
     Descriptor opened = locked_list(list);
+    if (!opened) return;
     char last = '\n';  // a killed run may leave half of a line
     if (opened.size() > 0) opened.read_at(opened.size() - 1, &last, 1);
     if (!opened.write((last == '\n' ? "" : "\n") + line_of(record))) throw write_error(list, errno);
@@ -155,6 +166,7 @@ void FileList::require_replaceable(const fs::path& file) {
     const std::lock_guard lock(mutex_);
     if (recovered_.insert(directory_of(file)).second) recover(directory_of(file));
     require_own(file);
+    const AtomicFile trial(file);  // created and removed: fails here where it cannot be written
 }
 
 void FileList::require_own(const fs::path& file) {
@@ -224,7 +236,7 @@ void FileList::recover(const fs::path& directory) {
     };
     if (!is_outdated()) return;
     const Descriptor lock = locked_list(list);
-    if (is_outdated()) write_file(list, without_outdated_lines(place));
+    if (lock && is_outdated()) write_file(list, without_outdated_lines(place));
 }
 
 }  // namespace beamcam::output

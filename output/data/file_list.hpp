@@ -8,7 +8,8 @@
 //
 // The line is written before the file appears under its name. So the next run can tell beamcam's files from the user's
 // even if a run is killed at any instant. The list is locked while a line is added, so that several processes may use
-// one directory, and is rewritten when most of its lines are outdated. Lines that are no records are skipped.
+// one directory, and is rewritten when most of its lines are outdated. Lines that are no records are skipped. In a
+// folder where only its owner may replace the list, other users' files are not recorded.
 #pragma once
 
 #include <filesystem>
@@ -55,7 +56,7 @@ class FileList {
     FileList& operator=(const FileList&) = delete;
 
     // To be called for every output before the work begins. Throws WouldOverwrite if the file exists and a run of this
-    // user did not make it, IoError if it cannot be read.
+    // user did not make it, IoError if it cannot be read or written.
     void require_replaceable(const std::filesystem::path& file);
 
     // The file exists, unchanged since a run of this user made it from these inputs.

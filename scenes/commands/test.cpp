@@ -36,7 +36,10 @@ RegressionOptions options_of(const TestArguments& args) {
 
 // Before any work: throws if a file is in the way of a report.
 void require_replaceable(const TestArguments& args, output::FileList& file_list) {
-    if (args.report) file_list.require_replaceable(fs::path(*args.report) / "index.html");
+    if (args.report) {
+        output::ensure_directory(*args.report);
+        file_list.require_replaceable(fs::path(*args.report) / "index.html");
+    }
     if (args.junit) file_list.require_replaceable(*args.junit);
 }
 

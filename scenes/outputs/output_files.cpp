@@ -1,6 +1,5 @@
 #include "scenes/outputs/output_files.hpp"
 
-#include <algorithm>
 #include <set>
 
 #include "output/files/atomic_file.hpp"
@@ -22,26 +21,16 @@ void OutputFiles::recover() {
 }
 
 void OutputFiles::claim(const std::vector<std::string>& files) {
-    std::vector<fs::path> claimed;
-    for (const std::string& file : files)
-        if (!is_stdout(file)) claimed.push_back(path_of(file));
     const std::string& directory = context_.options.directory;
-    for (const fs::path& file : claimed) {
-        std::error_code ignored;
-        if (fs::is_directory(file, ignored))
-            throw output::IoError(fmt::format("{} is a directory; choose another name for the output", file.string()));
-        const fs::path folder = file.parent_path();
-        if (directory.empty() && !folder.empty() && !fs::is_directory(folder, ignored))
-            throw output::IoError(
-                fmt::format("{}: {}", file.string(),
-                            fs::exists(fs::symlink_status(folder, ignored))
-                                ? fmt::format("{} is not a directory", folder.string())
-                                : fmt::format("the directory {} does not exist; create it first", folder.string())));
-        if (!directory.empty()) output::require_within(file, directory);
-        context_.file_list.require_replaceable(file);
+    for (const std::string& file : files) {
+        if (is_stdout(file)) continue;
+        const fs::path path = path_of(file);
+        if (!directory.empty()) {
+            output::require_within(path, directory);
+            output::ensure_directory(path.parent_path());
+        }
+        context_.file_list.require_replaceable(path);
     }
-    if (!directory.empty())
-        for (const fs::path& file : claimed) output::ensure_directory(file.parent_path());
 }
 
 output::FileTarget OutputFiles::target(const fs::path& file, std::optional<std::size_t> output) const {

@@ -132,7 +132,6 @@ std::string to_html(const RegressionResult& result, const std::string& title, co
 
 void write_page(const fs::path& folder, const RegressionResult& result, const std::string& title, const PassRule& rule,
                 output::FileList& file_list) {
-    output::ensure_directory(folder);
     const auto write = [&](const char* name, const std::string& text) {
         output::FileTarget target = file_list.target(folder / name);
         target.within = folder;

@@ -159,8 +159,9 @@ TEST(CommandLine, WrongUsageIsTwo) {
           std::pair{"render s.json --from 1 --to 0.5 -o a.mp4", "the film from 1 s to 0.5 s has no frame"},
           std::pair{"render s.json --from 1 --to 0.5 -o a.mp4", "\"to\" must be later than \"from\""},
           std::pair{"render s.json --from 30 -o a.mp4", "\"from\" must be earlier than the end of the scene"},
-          std::pair{"render s.json --at 1 -o s.json/x.png", "s.json/x.png: s.json is not a directory"},
-          std::pair{"render s.json --at 1 -o none/x.png", "none/x.png: the directory none does not exist"},
+          std::pair{"render s.json --at 1 -o s.json/x.png", "s.json/x.png: Not a directory"},
+          std::pair{"render s.json --at 1 -o none/x.png",
+                    "none/x.png: No such file or directory; make the directory first"},
           std::pair{"render s.json --at 1 -o x.mp4", "-o x.mp4 must be a .png, .pdf or .svg file"},
           std::pair{"render s.json --duration 1e9 -o a.mp4", "reduce \"duration\" or \"fps\""}})
         EXPECT_THAT(shell(folder, std::string("$BEAMCAM ") + arguments).err, HasSubstr(message));

@@ -193,7 +193,7 @@ TEST(GlSafety, WithoutThreadsALitFilmIsMadeOrEndsWithAMessage) {
 TEST(FileSafety, ErrorsOfTheFileSystemAreToldWithPathAndCause) {
     if (!another_user_can_run()) GTEST_SKIP() << kNoOtherUser;
     const std::pair<const char*, const char*> cases[] = {
-        {"mkdir -p out/t.csv", "out/t.csv is a directory"},
+        {"mkdir -p out/t.csv", "out/t.csv: Is a directory"},
         {"mkdir -p out/.beamcam.jsonl", "out/.beamcam.jsonl"},
         {"'\"$BEAMCAM\"' run s.json -o out -q; touch -d 2001-01-01 out/t.csv; chmod 0 out/t.csv",
          "out/t.csv: Permission denied"},
@@ -216,6 +216,30 @@ TEST(FileSafety, ErrorsOfTheFileSystemAreToldWithPathAndCause) {
         EXPECT_EQ(finished.code, 6) << setting << finished.err;
         EXPECT_THAT(finished.err, HasSubstr(message)) << setting;
     }
+}
+
+TEST(FileSafety, AFolderThatCannotBeWrittenIsReportedBeforeAnyWork) {
+    if (!another_user_can_run()) GTEST_SKIP() << kNoOtherUser;
+    for (const char* command : {"simulate s.json --trajectory out/m.csv", "figure s.json angle -o out/a.pdf",
+                                "render s.json -o out/a.png --at 0", "cam s.json -o out/c.csv"}) {
+        const Folder folder;
+        folder.write("s.json", R"({"time": {"end": 1e6}})");
+        fs::create_directory(folder / "out");
+        const Finished finished = with_threads(folder, 10000, command);
+        EXPECT_EQ(finished.code, 6) << command << finished.err;
+        EXPECT_THAT(finished.err, HasSubstr("Permission denied")) << command;
+    }
+}
+
+TEST(FileSafety, InAStickyFolderTheListOfAnotherUserIsLeftAlone) {
+    if (!another_user_can_run() || getuid() != 0) GTEST_SKIP() << kNoOtherUser;
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.1}})");
+    const std::string own = "mkdir out; touch out/.beamcam.jsonl; chown 12345 out/.beamcam.jsonl; chmod 1777 out";
+    ASSERT_EQ(shell(folder, own).code, 0);
+    const Finished finished = with_threads(folder, 10000, "simulate s.json --trajectory out/m.csv -q");
+    EXPECT_EQ(finished.code, 0) << finished.err;
+    EXPECT_EQ(slurp(folder / "out/.beamcam.jsonl"), "");
 }
 
 TEST(FileSafety, AFileThatMayNotBeReadIsNotToldToBeEmpty) {
