@@ -17,6 +17,7 @@ std::string orbit_text(const sim::PeriodicOrbit& orbit) {
                        orbit.stable() ? "stable" : "unstable", orbit.largest_multiplier(),
                        orbit.chatters()          ? ", rests on the cam for a part of the period"
                        : orbit.always_touching() ? ", always touching"
+                       : orbit.impacts.empty()   ? ", never touching the cam"
                                                  : "");
 }
 

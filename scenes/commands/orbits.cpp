@@ -255,7 +255,10 @@ int act(const OrbitsArguments& args) {
 
     // 3. What is missing, the result and its files; the code of an error of a file comes first.
     const bool written = !args.scene_file || write_scene(args, scene, table.orbits, file_list);
-    if (table.orbits.empty()) inform(args.common, nothing_found(request_of(args, scene.problem)));
+    if (table.orbits.empty())
+        inform(args.common, nothing_found(request_of(args, scene.problem)));
+    else if (std::ranges::none_of(table.orbits, &sim::PeriodicOrbit::stable))
+        inform(args.common, "none of these orbits is stable: the motion of the scene settles on none of them");
     const bool followed = !range || !table.branches.empty();
     if (!followed && !table.orbits.empty())
         inform(args.common, fmt::format("the orbits that were found could not be followed: Newton's method did not "

@@ -73,11 +73,11 @@ class PointMaker {
 
   private:
     output::StoredPoint made(std::uint64_t index, const std::optional<sim::InitialState>& start) {
+        const auto go_on = [&](double) { return progress_.reach(0); };  // within a long point the number stays
         try {
-            return stored(
-                index,
-                sim::sweep_point(grid_.problem(index), grid_.sampling(), start ? &*start : nullptr, until_interrupted),
-                grid_.sampling());
+            return stored(index,
+                          sim::sweep_point(grid_.problem(index), grid_.sampling(), start ? &*start : nullptr, go_on),
+                          grid_.sampling());
         } catch (const std::invalid_argument& impossible) {  // a start inside the cam
             sim::SweepPoint none;
             none.motion.failure = impossible.what();

@@ -50,7 +50,8 @@ std::string SweepRun::summary() const {
         ++count;
         if (!point.failure.empty() && failed++ == 0) why = point.failure;
     }
-    std::string text = fmt::format("{} in {:.1f} s{}", counted(count, "point"), seconds_, count > 0 ? ":" : "");
+    std::string text = fmt::format("{} in {:.1f} s{}", counted(count, "point"), seconds_,
+                                   count > 0 ? ":" : ": the sweep has at most " + counted(grid_.tasks(), "part"));
     for (const auto& [kind, n] : kinds)
         text += fmt::format("{} {} {}", kind == kinds.begin()->first ? "" : ",", n,
                             name(static_cast<sim::AttractorClass>(kind)));
