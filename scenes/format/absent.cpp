@@ -83,7 +83,7 @@ constexpr Absent kAbsent[] = {
     {WordKind::other, "inch inches", "write in"},
     {WordKind::other, "metre metres meter meters", "write m"},
     {WordKind::other, "second seconds sec", "write s"},
-    {WordKind::other, "degree degrees", "write deg"},
+    {WordKind::other, "degree degrees Grad grad gon", "write deg"},
     {WordKind::other, "radian radians", "write rad"},
     {WordKind::other, "hertz", "write Hz"},
     {WordKind::other, "newton newtons", "write N"},

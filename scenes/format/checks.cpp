@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "output/files/numbers.hpp"
 #include "render/plot/user_text.hpp"
@@ -38,8 +39,11 @@ void check_physics(ObjectReader& r, const sim::Problem& problem) {
     for (const sim::Issue& finding : sim::validate(problem)) {
         bool exact = false;
         const SourcePosition place = place_in_scene(*r.node(), finding.path, exact);
-        // Some values could not be read and are defaults now: check only values that the file contains.
-        if (partial && (!exact || !finding.fatal || r.diagnostics().failed(finding.path))) continue;
+        // Some values could not be read and are defaults now: check only values that the file contains, and entries of
+        // lists that could be read.
+        const std::string object = finding.path.substr(0, finding.path.rfind('.'));
+        const bool in_list = std::isdigit(static_cast<unsigned char>(object.back()));
+        if (partial && (!exact || !finding.fatal || r.diagnostics().failed(in_list ? object : finding.path))) continue;
         const bool named = finding.message.starts_with(finding.path);
         r.diagnostics().add(
             {place, named ? finding.message : fmt::format("{}: {}", finding.path, finding.message), finding.fatal});

@@ -65,12 +65,12 @@ class MeasurementReader {
     }
 
     void check_names() {
-        const auto check = [&](const char* key, const std::string& column) {
+        const auto check = [&](const std::string& key, const std::string& column) {
             if (!column.empty() && !table_.column(column))
                 fail(key, fmt::format("the file has no column {}{}", in_quotes(column),
                                       suggestion_or_list(column, table_.names())));
         };
-        for (const auto& [column, unit] : m_.units) check("units", column);
+        for (const auto& [column, unit] : m_.units) check("units." + column, column);
         for (const auto& [channel, from] : m_.columns)
             if (sim::traits(channel.kind).needs_cam && !r_.context().scene.problem.cam)
                 fail(r_.has(name(channel)) ? name(channel) : "file",

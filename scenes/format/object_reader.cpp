@@ -69,21 +69,25 @@ void ObjectReader::fail(const Node& node, std::string_view key, std::string text
 
 // ---- visited keys ------------------------------------------------------------------------------
 
+static bool is_word(const Node& node) {
+    return node.kind == Node::Kind::string && node.text.find_first_of("0123456789") == std::string::npos;
+}
+
 void ObjectReader::read_number(const Key& key, std::optional<double>& value, const Unit& unit, const Range& range,
                                const char* word) {
     const Node* node = take(key);
     if (!node) return;
     if (word && node->kind == Node::Kind::string && node->text == word)
         value.reset();
-    else if (unit.plain && node->kind != Node::Kind::number)
+    else if (unit.plain ? node->kind != Node::Kind::number : word && is_word(*node))
         expect(*node, key.name, "{}a number", word ? fmt::format("\"{}\" or ", word) : "");
     else if (const auto read = ranged_value(*node, key.name, unit, range)) {
         value = read;
-        const bool perhaps_degrees = node->kind == Node::Kind::number && same(unit.dimension, sim::dimension::kAngle) &&
-                                     std::abs(*read) > 2 * std::numbers::pi && *read == std::round(*read);
-        if (perhaps_degrees)
-            warn(key.name, " = {} is in rad, more than a turn; write \"{} deg\" if degrees are meant", node->text,
-                 node->text);
+        const bool whole = node->kind == Node::Kind::number && *read == std::round(*read);
+        if (whole && same(unit.dimension, sim::dimension::kAngle) && std::abs(*read) > 2 * std::numbers::pi)
+            warn(key.name, " = {0} is in rad, more than a turn; write \"{0} deg\" if degrees are meant", node->text);
+        if (whole && same(unit.dimension, sim::dimension::kLength) && *read >= 10)
+            warn(key.name, " = {0} is in m; write \"{0} mm\" if millimetres are meant", node->text);
     }
 }
 
@@ -116,7 +120,7 @@ void ObjectReader::numbers(const Key& key, std::vector<double>& values, const Un
     if (!read) return;
     if (fixed && read->size() != length.min)
         return reject(key.name, " must have {} numbers, not {}", length.min, read->size());
-    if (read->size() < length.min) return reject(key.name, " is empty; write at least one number");
+    if (read->size() < length.min) return reject(key.name, " has {} of at least {} numbers", read->size(), length.min);
     for (std::size_t i = 0; i < read->size(); ++i)
         if (!range.contains((*read)[i])) ranged_value(node->items[i], fmt::format("{}.{}", key.name, i), unit, range);
     values = *read;
@@ -170,8 +174,8 @@ std::vector<std::string> ObjectReader::keys_of(const Alternative& alternative) c
     return nothing.visited_;
 }
 
-// The object has no other keys than this shape, and all that it needs.
-bool ObjectReader::fits(const Alternative& alternative) const {
+// How many keys of the object are of this shape, and whether these are all its keys and all that the shape needs.
+std::pair<long, bool> ObjectReader::fit(const Alternative& alternative) const {
     ObjectReader nothing(diagnostics_, nullptr, path_, root_, context_);
     alternative.fields(nothing);
     const auto is_known = [&](const Member& member) {
@@ -180,8 +184,9 @@ bool ObjectReader::fits(const Alternative& alternative) const {
         return member.key.starts_with("x-") || std::ranges::find(visited_, member.key) != visited_.end() ||
                std::ranges::find(nothing.visited_, member.key) != nothing.visited_.end();
     };
-    return std::ranges::all_of(object_->members, is_known) &&
-           std::ranges::all_of(nothing.required_, [&](const std::string& key) { return has(key); });
+    const long known = std::ranges::count_if(object_->members, is_known);
+    return {known, known == std::ssize(object_->members) &&
+                       std::ranges::all_of(nothing.required_, [&](const std::string& key) { return has(key); })};
 }
 
 void ObjectReader::alternatives(const std::vector<Alternative>& all, bool explicit_tags) {
@@ -202,17 +207,16 @@ void ObjectReader::alternatives(const std::vector<Alternative>& all, bool explic
         if (const Node* node = take(tag)) {
             if (const auto chosen = keyword_value(*node, tag, words)) word = words[*chosen];
         } else {
-            std::vector<std::string> possible;
-            if (!explicit_tags) possible = words_of([&](const Alternative& each) { return fits(each); });
-            if (possible.size() == 1)
-                word = possible.front();
+            std::pair<long, bool> best;
+            for (const Alternative* each : left) best = std::max(best, fit(*each));
+            if (!explicit_tags) words = words_of([&](const Alternative& each) { return fit(each) == best; });
+            if (!explicit_tags && words.size() == 1)
+                word = words.front();
             else
                 fail(*object_, tag,
-                     fmt::format("{} needs \"{}\", one of {}", object_name(), tag,
-                                 fmt::join(possible.empty() ? words : possible, ", ")));
+                     fmt::format("{} needs \"{}\", one of {}", object_name(), tag, fmt::join(words, ", ")));
         }
         if (!word) {
-            if (depth == 0 && all.size() > 1) unknown_shape_ = true;
             for (const Alternative* each : left)
                 for (std::string& key : keys_of(*each)) visited_.push_back(std::move(key));
             return;
@@ -296,7 +300,7 @@ void ObjectReader::check(const std::function<void(ObjectReader&)>& rule) {
 
 void ObjectReader::finish() {
     for (const auto& read_deferred : deferred_) read_deferred();
-    if (!object_ || unknown_shape_) return;
+    if (!object_) return;
     const Member* type = object_->find("type");
     for (const Member& member : object_->members) {
         if (member.key.starts_with("x-") || std::ranges::find(visited_, member.key) != visited_.end()) continue;

@@ -152,7 +152,7 @@ class ObjectReader final : public SceneVisitor {
     void read_number(const Key& key, std::optional<double>& value, const sim::Unit& unit, const sim::Range& range,
                      const char* word);
     std::vector<std::string> keys_of(const sim::Alternative& alternative) const;
-    bool fits(const sim::Alternative& alternative) const;
+    std::pair<long, bool> fit(const sim::Alternative& alternative) const;
     std::string wrong_dimension(const Node& node, std::string_view key, const std::string& unit,
                                 const sim::Dimension& given) const;
 
@@ -163,7 +163,6 @@ class ObjectReader final : public SceneVisitor {
     bool check_ranges_ = true;
     std::vector<std::string> visited_, required_;
     std::vector<std::function<void()>> deferred_;  // numbers whose unit depends on another key
-    bool unknown_shape_ = false;                   // a tag is unreadable, so any key may belong here
 };
 
 // Reads the keys that `visit` visits in `root`, the object of this name, and appends the messages. False: there are

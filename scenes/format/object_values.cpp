@@ -133,9 +133,11 @@ std::string ObjectReader::wrong_dimension(const Node& node, std::string_view key
     }
     if (unit == "1")
         return fmt::format("{} = {} has a unit, but the key has none; write a number", path(key), in_quotes(node.text));
-    const bool cycles = unit == "rad/s" && same(given, dimension::kFrequency);
+    const char* remedy = unit == "rad/s" && same(given, dimension::kFrequency) ? ": write rpm, rad/s or deg/s"
+                         : unit == "rad" && same(given, dimension::kLength) ? ": divide by the distance from the pivot"
+                                                                            : "";
     return fmt::format("{} = {} has the wrong dimension ({}); it is measured in {}{}", path(key), in_quotes(node.text),
-                       si_unit(given), unit, cycles ? ": write rpm, rad/s or deg/s" : "");
+                       si_unit(given), unit, remedy);
 }
 
 }  // namespace beamcam::scenes

@@ -79,7 +79,7 @@ void set_value(Node& root, std::string_view path, Node value, std::vector<Messag
     const std::vector<std::string> keys = split(path);
     if (std::ranges::find(keys, "") != keys.end()) return error("the path contains an empty key; write key.path=value");
 
-    Node* node = &root;
+    Node changed = root, *node = &changed;
     std::string walked;
     bool added = false;
     for (const std::string& key : keys) {
@@ -105,6 +105,7 @@ void set_value(Node& root, std::string_view path, Node value, std::vector<Messag
         node = inner;
     }
     *node = std::move(value);
+    root = std::move(changed);
 }
 
 }  // namespace beamcam::scenes

@@ -87,13 +87,13 @@ Reading read_scene(Source file, Node root, const std::vector<std::string>& overr
     return reading;
 }
 
-Source load_named_source(const std::string& path) {
+Source load_named_source(const std::string& path, const char* remedy) {
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(path, error);
     if (path != "-" && std::filesystem::exists(status) && !std::filesystem::is_directory(status) &&
         !std::filesystem::is_regular_file(status))
         throw UnreadableFile(fmt::format("{} is not a regular file", path));
-    return load_source(path == "-" ? "./-" : path);
+    return load_source(path == "-" ? "./-" : path, remedy);
 }
 
 Source load_source(const std::string& path, const char* remedy) {

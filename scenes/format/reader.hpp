@@ -31,10 +31,11 @@ Reading read_scene(Source file, Node root, const std::vector<std::string>& overr
 struct UnreadableFile : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
+inline constexpr const char* kNoScene = "`beamcam init` writes a first scene";
 // "-" is standard input. `remedy`: end of the message if the file does not exist. Throws UnreadableFile.
-Source load_source(const std::string& path, const char* remedy = "`beamcam init` writes a first scene");
+Source load_source(const std::string& path, const char* remedy = kNoScene);
 // Loads a file that a scene file names. Rejects standard input, and pipes and devices, which might never end.
-Source load_named_source(const std::string& path);
+Source load_named_source(const std::string& path, const char* remedy = kNoScene);
 
 // Reads one output, which becomes the only output of the scene. `scene_name`: paths in the output are relative to its
 // folder. `path`: of the output in messages, such as "entries.fall.output"; empty: "the output". False on errors.

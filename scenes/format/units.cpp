@@ -71,12 +71,17 @@ struct Prefix {
 constexpr Prefix kPrefixes[] = {{"n", -9}, {"u", -6}, {"µ", -6}, {"μ", -6}, {"m", -3},
                                 {"c", -2}, {"d", -1}, {"k", 3},  {"M", 6},  {"G", 9}};
 
+// No angle is a thousand radians: "Grad" is a German degree.
+bool takes(const NamedUnit& unit, const Prefix& prefix) {
+    return unit.takes_prefix && (prefix.decades < 0 || unit.dimension.angle == 0);
+}
+
 std::optional<Scaled> named(std::string_view symbol) {
     for (const NamedUnit& unit : kUnits)
         if (unit.name == symbol) return Scaled{unit.factor, double(unit.decades), unit.dimension};
     for (const NamedUnit& unit : kUnits)
         for (const Prefix& prefix : kPrefixes)
-            if (unit.takes_prefix && symbol.size() == prefix.name.size() + unit.name.size() &&
+            if (takes(unit, prefix) && symbol.size() == prefix.name.size() + unit.name.size() &&
                 symbol.starts_with(prefix.name) && symbol.ends_with(unit.name))
                 return Scaled{unit.factor, double(unit.decades + prefix.decades), unit.dimension};
     return std::nullopt;
@@ -88,9 +93,9 @@ std::vector<std::string> symbols_of(const Dimension* dimension) {
     for (const NamedUnit& unit : kUnits) {
         if (dimension && !same(unit.dimension, *dimension)) continue;
         symbols.emplace_back(unit.name);
-        if (!unit.takes_prefix) continue;
         for (const Prefix& prefix : kPrefixes)
-            if (prefix.name[0] > 0) symbols.push_back(std::string(prefix.name) + std::string(unit.name));
+            if (takes(unit, prefix) && prefix.name[0] > 0)
+                symbols.push_back(std::string(prefix.name) + std::string(unit.name));
     }
     if (dimension) symbols.push_back(si_unit(*dimension));
     return symbols;
@@ -201,6 +206,7 @@ QuantityText parse_quantity(std::string_view text, const Dimension* expected) {
     std::string_view unit(end, static_cast<std::size_t>(digits.data() + digits.size() - end));
     while (unit.starts_with(' ')) unit.remove_prefix(1);
     if (unit.empty()) return {Quantity{value, {}}, {}};
+    if (unit.starts_with(',')) return {std::nullopt, "the decimal sign is a point"};
     const UnitText scale = unit_in(std::string(unit), expected);
     if (!scale.unit) return {std::nullopt, scale.problem};
     const std::string_view number(digits.data(), static_cast<std::size_t>(end - digits.data()));

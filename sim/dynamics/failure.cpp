@@ -140,8 +140,10 @@ std::string cause(const Failure& failure, System& system, const BeamState& beam)
     const Problem& p = system.problem();
     switch (failure.why) {
         case Stop::steps_spent:
-            return fmt::format("the budget of {} steps (solver.max_steps) is spent, the last one {:.2g} s long: {}",
-                               p.solver.max_steps, failure.last_step, step_size_limits(p, system, beam));
+            return fmt::format(
+                "the budget of {} steps (solver.max_steps) is spent, the last one {:.2g} s long: {}; a larger "
+                "solver.max_steps allows more",
+                p.solver.max_steps, failure.last_step, step_size_limits(p, system, beam));
         case Stop::too_slow:
             if (large_deflection(p, beam)) return deflection_message(p, beam);
             return fmt::format(

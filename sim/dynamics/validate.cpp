@@ -105,11 +105,17 @@ void check_section(Issues& out, const Section& section) {
 void check_beam(Issues& out, const Problem& p) {
     const Beam& b = p.beam;
     if (b.section) check_section(out, *b.section);
+    if (b.section && beam_depth(b) >= b.length)
+        out.error("beam.section",
+                  fmt::format("is {:g} m deep, but the beam {:g} m long; write \"1 mm\" for millimetres", beam_depth(b),
+                              b.length));
     if (b.damping_ratio.size() > 1 && static_cast<int>(b.damping_ratio.size()) != b.modes)
         out.error("beam.damping_ratio", fmt::format("needs one number, or one for each of the {} modes; has {}",
                                                     b.modes, b.damping_ratio.size()));
     if (b.kelvin_voigt && std::any_of(b.damping_ratio.begin(), b.damping_ratio.end(), [](double z) { return z != 0; }))
         out.error("beam.kelvin_voigt", "cannot be given together with damping_ratio; remove one of them");
+    if (std::ranges::any_of(b.damping_ratio, [](double ratio) { return ratio > 1; }))
+        out.warning("beam.damping_ratio", "is above 1, the critical damping; write 0.05 if 5 % is meant");
     if (b.basis == Basis::hub_beam && is_prescribed(p.hub.drive))
         out.error("beam.basis",
                   "hub-beam shapes are those of a freely rotating hub; with a prescribed drive use \"cantilever\" or "
@@ -374,6 +380,7 @@ std::vector<Issue> validate(const Problem& problem) {
             out.error("initial.shape",
                       "a beam whose angle is prescribed does not rest on the cam; use \"straight\" or \"static\"");
     }
+    if (problem.gravity < 0) out.warning("gravity", "is negative: it acts upwards");
     check_given_shapes(out, problem);
     check_given_contact(out, problem);
     std::shared_ptr<const CamShape> shape;

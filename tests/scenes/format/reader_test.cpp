@@ -263,6 +263,8 @@ TEST(Reader, ADefaultThatReplacedAnUnreadValueIsNotJudged) {
     // With the default length 1 m this cam is never reached; the length was meant to be another.
     EXPECT_THAT(messages(read(R"({"beam": {"length": "5 s"}, "cam": {"centre": [3, 0]}})")),
                 ElementsAre(HasSubstr("wrong dimension")));
+    const std::string law = R"({"cam": {"profile": {"lowest": 0.2, "segments": [{"law": "345", "rise": 0.1}]}}})";
+    EXPECT_THAT(messages(read(law)), ElementsAre(HasSubstr("did you mean \"3-4-5\"?")));
 }
 
 TEST(Reader, PointlessScenesAreWarnedAboutAndRead) {
@@ -295,7 +297,13 @@ TEST(Reader, ATypeThatIsLeftOutFollowsFromTheOtherKeys) {
     EXPECT_THAT(messages(read(R"({"contact": {"friction": {"coefficient": 0.2}}})")),
                 ElementsAre("1:26 contact.friction needs \"type\", one of coulomb, stick-slip"));
     EXPECT_THAT(messages(read(R"({"hub": {"drive": {"torqe": 1}}})")),
-                ElementsAre("1:19 hub.drive needs \"type\", one of free, torque, prescribed"));
+                ElementsAre("1:19 hub.drive needs \"type\", one of free, torque, prescribed",
+                            HasSubstr("\"torqe\" in hub.drive; did you mean \"torque\"?")));
+    EXPECT_THAT(messages(read(R"({"beam": {"section": {"width": 1, "hight": 1}}})")),
+                ElementsAre(HasSubstr("beam.section needs \"height\""), HasSubstr("did you mean \"height\"?")));
+    EXPECT_THAT(messages(read(R"({"beam": {"section": {}}})")), ElementsAre(HasSubstr("rectangle, circle, tube")));
+    EXPECT_THAT(messages(read(R"({"beam": {"section": {"width": 1}}})")),
+                ElementsAre(HasSubstr("beam.section needs \"height\"")));
     EXPECT_THAT(messages(read(R"({"outputs": [{"file": "a.mp4"}]})")),
                 ElementsAre(HasSubstr("needs \"type\", one of video")));
 }
@@ -307,6 +315,27 @@ TEST(Reader, WholeNumbersOfRadiansBeyondATurnArePerhapsDegrees) {
                 ElementsAre("1:23 initial.angle = 45 is in rad, more than a turn; write \"45 deg\" if "
                             "degrees are meant"));
     EXPECT_THAT(messages(read(R"({"beam": {"length": "12 inch"}})")), ElementsAre(HasSubstr("\"inch\"; write in")));
+}
+
+TEST(Reader, WholeNumbersOfTenMetresAndMoreArePerhapsMillimetres) {
+    EXPECT_THAT(messages(read(R"({"beam": {"length": 300}})")),
+                Contains("1:21 beam.length = 300 is in m; write \"300 mm\" if millimetres are meant"));
+    EXPECT_TRUE(messages(read(R"({"beam": {"length": "300 m"}})")).empty());
+}
+
+TEST(Reader, MessagesOfNumbersNameTheRemedy) {
+    const std::pair<const char*, const char*> cases[] = {
+        {R"({"contact": {"stiffness": "Hertz"}})", "contact.stiffness must be \"hertz\" or a number"},
+        {R"({"contact": {"offset": "half_depth"}})", "contact.offset must be \"half-depth\" or a number"},
+        {R"({"beam": {"length": "1,2 mm"}})", "the decimal sign is a point"},
+        {R"({"beam": {"section": {"width": 20, "height": 1}}})", "is 1 m deep, but the beam 1 m long"},
+        {R"({"cam": {"profile": {"type": "points", "x": [0, 1, 1, 0], "y": "@c.csv:y"}}})",
+         "cam.profile.x has 4 of at least 24 numbers"},
+        {R"({"cam": {"profile": {"lowest": 1, "segments": [{"law": "harmonic", "rise": "8 mm"}]}}})",
+         "measured in rad: divide by the distance from the pivot"}};
+    for (const auto& [scene, remedy] : cases) EXPECT_THAT(messages(read(scene)), Contains(HasSubstr(remedy)));
+    EXPECT_THAT(messages(read(R"({"outputs": [{"type": "trajectory", "data": []}]})")),
+                Contains(::testing::EndsWith("its place is \"data\"")));
 }
 
 TEST(Reader, KeysForWhatIsNotModelledSaySo) {

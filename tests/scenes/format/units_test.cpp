@@ -82,6 +82,8 @@ TEST(Units, WhatIsNoQuantityIsReported) {
     };
     EXPECT_EQ(suggested("3 Nm", dimension::kTorque), "unknown unit \"Nm\"; did you mean \"N m\"?");
     EXPECT_EQ(suggested("1 gn", dimension::kAcceleration), "unknown unit \"gn\"");
+    EXPECT_EQ(suggested("10 grad", dimension::kAngle), "unknown unit \"grad\"; write deg");
+    EXPECT_EQ(suggested("10 Grad", dimension::kAngle), "unknown unit \"Grad\"; write deg");
     EXPECT_NE(parse_quantity("1e307 Gm").problem.find("out of the range"), std::string::npos);
 }
 
