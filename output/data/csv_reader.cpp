@@ -342,7 +342,8 @@ class CsvParser {
             count == width_ || (count > width_ && std::all_of(row.cells.begin() + static_cast<std::ptrdiff_t>(width_),
                                                               row.cells.end(), [](auto cell) { return cell.empty(); }));
         if (!fits)
-            refuse(row, std::to_string(count) + " cells in this row, but the header has " + std::to_string(width_) +
+            refuse(row, "the number of cells is " + std::to_string(count) + " here, but " + std::to_string(width_) +
+                            " in the header" +
                             (count < width_ ? "; the file may be cut off, or cells are missing"
                                             : "; put texts that contain the separator in quotes"));
         empty_end_ = row.is_empty() ? empty_end_ + 1 : 0;

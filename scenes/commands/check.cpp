@@ -3,6 +3,7 @@
 
 #include "scenes/commands/commands.hpp"
 #include "scenes/plan/plan.hpp"
+#include "scenes/scene/files.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -20,8 +21,9 @@ void warn_of_characters(const Common& common, const std::string& path, const Sce
 }
 
 int act(const CheckArguments& args) {
-    return for_each_file(args.scenes, [&](const std::string& path) {
-        const Scene scene = load_scene_with_output(path, args.common);
+    return for_each_file(args.scenes, [&](const std::string& file) {
+        const Scene scene = load_scene_with_output(file, args.common);
+        const std::string path = is_stdout(file) ? "stdin" : file;
         warn_of_characters(args.common, path, scene);
         for (const std::string& note : scene.notes) inform(args.common, fmt::format("{}: note: {}", path, note));
         inform(args.common, fmt::format("{}: fine", path));

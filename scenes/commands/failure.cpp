@@ -62,7 +62,7 @@ int report(const std::exception& error) {
         text += "; perhaps there was " + render::out_of_memory_message();
         if (code == kBug) code = kInputOutput;  // rather than one of the program
     }
-    output::print_message("beamcam: {}\n", text);
+    if (!text.empty()) output::print_message("beamcam: {}\n", text);
     return code;
 }
 

@@ -97,6 +97,7 @@ static std::string write(const ImpactsOutput&, const DataFile&, const DataSource
 void StateOutput::visit(SceneVisitor& v) {
     visit_file(v, file, {".json"}, "-state.json");
     v.number("at", at, sim::dimension::kTime, kFromStart, "The instant; it is the time 0 of the scene in the file.");
+    v.check([this](ObjectReader& r) { check_end(r, "at", at); });
 }
 
 void plan(Planner& planner, const StateOutput& state, const ResolvedOutput& resolved) {

@@ -26,14 +26,17 @@ using SceneRuns = std::vector<std::unique_ptr<SceneRun>>;
 
 void reject_clashes(std::span<const Scene> scenes) {
     FileClaims claims;
-    for (std::size_t i = 0; i < scenes.size(); ++i)
-        for (const Output& output : scenes[i].outputs)
-            for (const std::string& file : written_by(output)) claims.add(file, i);
+    std::vector<std::string> places;  // of the outputs
+    for (const Scene& scene : scenes)
+        for (std::size_t i = 0; i < scene.outputs.size(); ++i) {
+            for (const std::string& file : written_by(scene.outputs[i])) claims.add(file, places.size());
+            places.push_back(i < scene.output_places.size() ? scene.output_places[i] : scene.name);
+        }
     for (const auto& [later, earlier] : claims.clashes())
         throw NameClash(
-            fmt::format("{} of the scene {} and {} of the scene {} are the same file; rename one of them, or run the "
-                        "scenes one by one with different -o",
-                        later.file, scenes[later.owner].name, earlier.file, scenes[earlier.owner].name));
+            fmt::format("{}: {} and {}: {} are the same file; rename one of them, or run the scenes one by one with "
+                        "different -o",
+                        places[later.owner], later.file, places[earlier.owner], earlier.file));
 }
 
 void warn_of_ignored_gl_settings(const RunContext& context, const SceneRuns& all) {
@@ -96,8 +99,8 @@ void run(std::span<const Scene> scenes, const RunOptions& options) {
     try {
         std::rethrow_exception(context.first_error);
     } catch (...) {
-        std::throw_with_nested(
-            Incomplete(fmt::format("{} of {} could not be written", context.rejected, counted(outputs, "output"))));
+        std::throw_with_nested(Incomplete(
+            outputs == 1 ? "" : fmt::format("{} of {} outputs could not be written", context.rejected, outputs)));
     }
 }
 

@@ -321,8 +321,9 @@ void SceneRun::attempt(std::size_t output, const std::function<void()>& work) {
 void SceneRun::reject(std::size_t output, const std::string& why) {
     context_.progress.end();
     const bool listed = output < scene_.output_places.size();
-    output::print_message("beamcam: {}: {}: {}\n", listed ? scene_.output_places[output] : scene_.name,
-                          file_of(scene_.outputs[output]), why);
+    const std::string& file = file_of(scene_.outputs[output]);
+    output::print_message("beamcam: {}: {}{}\n", listed ? scene_.output_places[output] : scene_.name,
+                          is_stdout(file) ? "" : file + ": ", why);
     if (!context_.first_error) context_.first_error = std::current_exception();
     ++context_.rejected;
     rejected_ = true;

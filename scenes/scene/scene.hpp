@@ -28,7 +28,8 @@ struct Scene {
     std::vector<Measurement> data;
     std::vector<Output> outputs;
     std::vector<std::string> notes;  // what is assumed where the scene says nothing; `beamcam check` prints them
-    // Position of each output in the file, for messages: "fall.json:12:5". Outputs of commands have none.
+    // Position of each output in the file, for messages: "fall.json:12:5"; of the default film "fall.json". Outputs of
+    // commands have none.
     std::vector<std::string> output_places;
 
     void set_outputs(std::vector<Output> others) {

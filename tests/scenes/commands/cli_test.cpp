@@ -345,6 +345,26 @@ TEST(CommandLine, InitWritesASceneThatIsFineAndNeverReplacesOne) {
     EXPECT_THAT(shell(folder, "$BEAMCAM init -").out, HasSubstr("\"beam\""));
 }
 
+TEST(CommandLine, MessagesNameTheFileAndTheRemedyOnce) {
+    const Folder folder;
+    folder.write("s.json", "{}");
+    folder.write("m.csv", "t,theta\n0,1\n1\n");
+    const std::pair<const char*, const char*> cases[] = {
+        {"run s.json ./s.json", "s.json: s.mp4 and s.json: s.mp4 are the same file"},
+        {"simulate s.json --set solver.max_steps=100", "a larger solver.max_steps allows more\n"},
+        {"simulate s.json --state-at 2", "--state-at = 2 s is after the end of the scene"},
+        {"simulate s.json --channels 'theta, gap' --rate 1", ""},
+        {"figure s.json --preset no.json", "no.json does not exist; `beamcam figure SCENE` lists the presets"},
+        {"check s.json --set outputs.0.type=video", "set outputs itself\n"},
+        {"check - < s.json", "stdin: fine"},
+        {"figure m.csv --x t --channels theta -o a.pdf", "the number of cells is 1 here, but 2 in the header"}};
+    for (const auto& [command, text] : cases) {
+        const Finished finished = shell(folder, std::string("$BEAMCAM ") + command);
+        EXPECT_THAT(finished.err, HasSubstr(text)) << command;
+        EXPECT_LE(std::ranges::count(finished.err, '\n'), 1) << finished.err;
+    }
+}
+
 TEST(CommandLine, TheSummaryHasTheExtremaOfTheChannelsThatAreAskedFor) {
     const Folder folder;
     folder.write("s.json", R"({"time": {"end": 0.1}})");

@@ -248,7 +248,7 @@ TEST(Skipping, ScenesThatWouldWriteOneFileAreRefusedBeforeAnyWork) {
     folder.write("b.json", scene(R"({"type": "trajectory", "file": "t.csv"})"));
     const Finished run = shell(folder, "$BEAMCAM run a.json b.json");
     EXPECT_EQ(run.code, 2);
-    EXPECT_THAT(run.err, HasSubstr("t.csv of the scene b and t.csv of the scene a"));
+    EXPECT_THAT(run.err, HasSubstr("b.json:1:65: t.csv and a.json:1:65: t.csv"));
     EXPECT_FALSE(fs::exists(folder / "t.csv"));
 }
 
