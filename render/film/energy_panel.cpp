@@ -10,6 +10,8 @@ namespace {
 
 using sim::ChannelKind;
 
+constexpr double kVisible = 0.01;  // of the largest term
+
 // All terms of the balance, stacked: their sum is the initial energy plus the work done by cam and drive, so where V ≥
 // 0 the outline of the stack is the supplied energy. Where V < 0 its band is below zero, and the others are stacked on
 // zero.
@@ -67,9 +69,10 @@ class EnergyPanel final : public ChartPanel {
             for (ChannelKind kind : part.channels) {
                 const auto* v = column(table, {kind, 0});
                 if (!v || v->empty()) continue;
-                // Without a cam the channels of contact are empty.
+                // Without a cam the channels of contact are empty. A preloaded spring would hide the rest.
+                const double least = kind == ChannelKind::energy_spring ? std::ranges::min(*v) : 0;
                 for (std::size_t i = 0; i < base.size(); ++i)
-                    if (const double value = (*v)[i]; kind == ChannelKind::energy_potential && value < 0)
+                    if (const double value = (*v)[i] - least; kind == ChannelKind::energy_potential && value < 0)
                         band.low[i] = value;
                     else if (value > 0)
                         band.high[i] += value;
@@ -85,12 +88,14 @@ class EnergyPanel final : public ChartPanel {
 
     static bool is_wide(const FilmContext& context, const Box& box) { return box.w > 600 * context.look.unit; }
 
-    // The legend beside the heading, in symbols if there is no room for words.
+    // The legend beside the heading, in symbols if there is no room for words, of the terms that are visible.
     void legend(Canvas& canvas) const {
         const double u = context_.look.unit;
         const Box plot = plot_area(box_, u, context_.look.letters.words);
         std::vector<Part> shown = parts(context_);
-        std::erase_if(shown, [&](const Part& part) { return !occurs(part); });
+        double most = 0;
+        for (const Part& part : shown) most = std::max(most, largest(part));
+        std::erase_if(shown, [&](const Part& part) { return largest(part) <= kVisible * most; });
         const double first =
             plot.x +
             canvas
@@ -115,15 +120,12 @@ class EnergyPanel final : public ChartPanel {
             x += w;
         }
     }
-    // Terms that are zero throughout are not in the legend, such as the bending energy of a rigid beam.
-    bool occurs(const Part& part) const {
-        const sim::Table& table = context_.motion(member_).chart;
-        return std::ranges::any_of(part.channels, [&](ChannelKind kind) {
-            const auto* v = column(table, {kind, 0});
-            return v && std::ranges::any_of(*v, [&](double value) {
-                       return value > 0 || (value < 0 && kind == ChannelKind::energy_potential);
-                   });
-        });
+    double largest(const Part& part) const {
+        double most = 0;
+        for (const ChannelKind kind : part.channels)
+            if (const auto* v = column(context_.motion(member_).chart, {kind, 0}))
+                for (const double value : *v) most = std::max(most, std::abs(value));
+        return most;
     }
     // The motion's label, over the bands.
     void draw_member(Canvas& canvas) const {

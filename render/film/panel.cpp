@@ -236,17 +236,17 @@ sim::Pose FilmContext::pose(int member, int frame) const {
     sim::Pose out = motion(member).pose(static_cast<std::size_t>(frame));
     if (out.nearest && out.nearest->force < kForceRounding * scales.largest_force)
         out.nearest->force = out.nearest->friction = 0;
-    for (double& value : out.moment) value *= moment_share(member, frame);
+    for (double& value : out.moment) value *= moment_share(frame);
     return out;
 }
 
 // With fewer than six frames a period of the first vibration the colour of the moment fades, with three there is none:
 // it would show the frame rate. A still has all of it.
-double FilmContext::moment_share(int member, int frame) const {
+double FilmContext::moment_share(int frame) const {
     constexpr double kNone = 3;  // frames a period
     if (frames() == 1) return 1;
     const double speed = setup->speeds.empty() ? 1 : setup->speeds[static_cast<std::size_t>(frame)];
-    return std::clamp(scales.periods[static_cast<std::size_t>(member)] * setup->fps / (kNone * speed) - 1, 0.0, 1.0);
+    return std::clamp(scales.period * setup->fps / (kNone * speed) - 1, 0.0, 1.0);
 }
 
 double first_period(const sim::Problem& problem) {
@@ -281,10 +281,8 @@ void FilmContext::choose_scales() {
         }
         // A moment that bends the beam by less than a billionth of its length is a rounding error.
         const double negligible = 1e-9 * one.problem.beam.bending_stiffness() / one.problem.beam.length;
-        scales.periods.push_back(first_period(one.problem));
-        bool seen = false;
-        for (int k = 0; k < frames() && !seen; ++k) seen = moment_share(m, k) > 0;
-        if (flexible && seen && largest > negligible) moment = std::max(moment, largest);
+        scales.period = std::min(scales.period, first_period(one.problem));
+        if (flexible && largest > negligible) moment = std::max(moment, largest);
     }
     if (!std::isfinite(scales.exaggeration)) scales.exaggeration = 1;
     scales.arrow_force = force;
@@ -299,7 +297,8 @@ void FilmContext::choose_scales() {
     }
     scales.force_unit = prefix_for(std::min(smallest, force));
     if (force >= 1e4 * scales.force_unit.factor) scales.force_unit = prefix_for(force);
-    if (moment > 0) scales.moment = round_up_125(moment);
+    for (int k = 0; k < frames() && moment > 0; ++k)
+        if (moment_share(k) > 0) scales.moment = round_up_125(moment);
     scales.largest_force = force;
     if (force > 0 && colored) scales.force = round_up_125(force);
 }

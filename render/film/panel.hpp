@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -36,8 +37,8 @@ struct FilmScales {
     double force = 0;        // end of the colour scale: the largest force, rounded up; 0: no force [N]
     double arrow_force = 0;  // largest force of all frames, that of the longest arrow [N]
     double moment = 0;       // end of the colour scale; 0: no colouring [N m]
-    std::vector<double> periods;  // of the first vibration of each motion [s]
-    bool turns = false;           // θ is in turns instead of degrees, because it exceeds two
+    double period = std::numeric_limits<double>::infinity();  // of the fastest motion's first vibration [s]
+    bool turns = false;  // θ is in turns instead of degrees, because it exceeds two
 };
 
 // Colours, sizes and language of a film.
@@ -77,7 +78,7 @@ struct FilmContext {
     }
     // Without forces that are rounding, and with that share of the moment.
     sim::Pose pose(int member, int frame) const;
-    double moment_share(int member, int frame) const;
+    double moment_share(int frame) const;
     // For a motion without a cam: one that has a cam, whose section position the drawing takes over. Otherwise null.
     const sim::Problem* section_reference(int member) const;
     // Factor from SI to the unit in which a channel is displayed, and that unit.

@@ -79,7 +79,7 @@ Range range_of(const FilmContext& context, const PanelSpec& spec, const std::vec
                 see(context.shown_factor(channel) * pose.theta);
     }
     const auto& [any, low, high] = all;
-    if (is_force(channel)) return {0, any && high > 0 ? 1.2 * high : 1};  // the values of peaks are above them
+    if (is_force(channel)) return {0, any && high > 0 ? 1.3 * high : 1};  // the values of peaks are above them
     if (!any) return {0, 1};
     // The axis of a constant: ± a twentieth of it, of a radian, or of one unit. A length below the rounding of
     // positions is zero.

@@ -11,7 +11,7 @@ namespace beamcam::render {
 namespace {
 
 constexpr double kBetweenReadings = 18;                                 // [design px]
-constexpr double kBetweenRows = 1, kLowestRow = 0.9, kAbovePeak = 0.5;  // in sizes of the numbers
+constexpr double kBetweenRows = 1, kLowestRow = 0.9, kAbovePeak = 0.2;  // in sizes of the numbers
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 void draw_all(Canvas& canvas, const std::vector<figure::Plot>& rows, const figure::Interval& part) {
@@ -62,7 +62,7 @@ void Chart::make_rows(const Fonts& fonts) {
         row.series.push_back(c_.panel.series[k]);
         const std::vector<double>& values = row.series.back().y;
         const double largest = values.empty() ? 0 : std::ranges::max(values);
-        if (largest > 0 && largest < 0.05 * c_.values().high) row.y.to = 1.2 * largest;
+        if (largest > 0 && largest < 0.05 * c_.values().high) row.y.to = 1.3 * largest;
         std::erase_if(row.events, [k](const figure::EventTick& at) { return at.lane != static_cast<int>(k); });
         for (figure::EventTick& at : row.events) at.lane = 0, at.lanes = 1;
     }

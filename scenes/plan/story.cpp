@@ -121,12 +121,10 @@ std::string energy_at_apex(double touch, double apex, const sim::Problem& proble
     for (const Part& each : sources)  // parts below half a percent are left out
         if (each.size > 0.005 * all)
             from += (from.empty() ? "" : ", ") + phrase(lang, each.name, quantity(each.size, "J"));
-    double sum_so_far = 0;  // its rounded steps add up to 100 %
+    double used = 0, told = 0;  // the rounded steps of the sum add up to 100 %
     for (const Part& each : uses)
-        if (const double before = std::round(100 * sum_so_far / all),
-            percent = std::round(100 * (sum_so_far += std::max(each.size, 0.0)) / all) - before;
-            percent > 0)
-            to += (to.empty() ? "" : ", ") + phrase(lang, each.name, fmt::format("{:.0f} %", percent));
+        if (const double percent = std::round(100 * (used += std::max(each.size, 0.0)) / all) - told; percent > 0)
+            told += percent, to += (to.empty() ? "" : ", ") + phrase(lang, each.name, fmt::format("{:.0f} %", percent));
     return phrase(lang, "energy {}", from) + ": " + to;
 }
 
