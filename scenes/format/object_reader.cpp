@@ -69,17 +69,15 @@ void ObjectReader::fail(const Node& node, std::string_view key, std::string text
 
 // ---- visited keys ------------------------------------------------------------------------------
 
-static bool is_word(const Node& node) {
-    return node.kind == Node::Kind::string && node.text.find_first_of("0123456789") == std::string::npos;
-}
-
 void ObjectReader::read_number(const Key& key, std::optional<double>& value, const Unit& unit, const Range& range,
                                const char* word) {
     const Node* node = take(key);
     if (!node) return;
-    if (word && node->kind == Node::Kind::string && node->text == word)
+    const bool text = node->kind == Node::Kind::string;
+    if (word && text && node->text == word)
         value.reset();
-    else if (unit.plain ? node->kind != Node::Kind::number : word && is_word(*node))
+    else if (unit.plain ? node->kind != Node::Kind::number
+                        : word && text && node->text.find_first_of("0123456789") == std::string::npos)
         expect(*node, key.name, "{}a number", word ? fmt::format("\"{}\" or ", word) : "");
     else if (const auto read = ranged_value(*node, key.name, unit, range)) {
         value = read;

@@ -1,7 +1,5 @@
 #include "scenes/outputs/output_files.hpp"
 
-#include <set>
-
 #include "output/files/atomic_file.hpp"
 #include "scenes/plan/up_to_date.hpp"
 #include "scenes/scene/files.hpp"
@@ -12,13 +10,6 @@ namespace beamcam::scenes {
 namespace fs = std::filesystem;
 
 fs::path OutputFiles::path_of(const std::string& file) const { return place_of(context_.options.directory, file); }
-
-void OutputFiles::recover() {
-    std::set<fs::path> folders;
-    for (const Output& output : scene_.outputs)
-        if (!is_stdout(file_of(output))) folders.insert(path_of(file_of(output)).parent_path());
-    for (const fs::path& folder : folders) context_.file_list.recover(folder);
-}
 
 void OutputFiles::claim(const std::vector<std::string>& files) {
     const std::string& directory = context_.options.directory;

@@ -18,9 +18,7 @@ class OutputFiles {
         : scene_(scene), inputs_(inputs), context_(context) {}
 
     std::filesystem::path path_of(const std::string& file) const;
-    // Cleans up after killed runs in the folders of all outputs.
-    void recover();
-    // Throws if one of these files of outputs cannot be written.
+    // Throws if one of these files of outputs cannot be written. Makes their folders, and cleans up after killed runs.
     void claim(const std::vector<std::string>& files);
 
     // No inputs are recorded without `output`.

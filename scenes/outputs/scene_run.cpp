@@ -59,7 +59,6 @@ Plan SceneRun::dry_plan() const {
 
 void SceneRun::prepare() {
     report_up_to_date();
-    files_.recover();
     std::vector<std::string> files;
     for (std::size_t i = 0; i < scene_.outputs.size(); ++i)
         if (!existing_.finished.contains(i)) std::ranges::move(written_by(scene_.outputs[i]), back_inserter(files));
