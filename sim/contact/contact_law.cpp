@@ -7,6 +7,9 @@
 
 namespace beamcam::sim {
 
+constexpr int kMostNewton = 30;
+constexpr double kNewtonRounding = 1e-8;  // of the last step, whose error is the square
+
 double NormalLaw::elastic(double penetration) const {
     if (!(penetration > 0)) return 0;
     if (exponent == 1.5) return stiffness * penetration * std::sqrt(penetration);
@@ -48,6 +51,21 @@ FrictionLaw FrictionLaw::of(const Problem& problem, const NormalLaw& normal, dou
             stick_slip->stiffness.value_or(2 * (1 - nu) / (2 - nu) * n * normal.stiffness * std::pow(depth, n - 1));
     }
     return law;
+}
+
+// Newton's method from below the magnitude of v, from where it does not overshoot: tanh is concave. Where the slip
+// yields so little that it never does, the slip is as good.
+double FrictionLaw::slip_near(double normal, double friction, double slip, double mobility) const {
+    const double most = mobility * kinetic * normal, trial = slip - mobility * friction;
+    if (!(most > slip_speed)) return slip;
+    double v = trial / (1 + most / slip_speed);
+    for (int i = 0; i < kMostNewton; ++i) {
+        const double share = std::tanh(v / slip_speed);
+        const double step = (trial - v - most * share) / (1 + most / slip_speed * (1 - share * share));
+        v += step;
+        if (!(std::fabs(step) > kNewtonRounding * std::fabs(v))) break;
+    }
+    return v;
 }
 
 double FrictionLaw::force(FrictionState state, double normal, double slip, double z) const {

@@ -54,7 +54,14 @@ struct FrictionLaw {
     bool none() const { return kinetic == 0 && limit == 0; }
     // F_t/N of Coulomb friction (S34).
     double ratio(double slip) const { return -kinetic * std::tanh(slip / slip_speed); }
-    double coulomb(double normal, double slip) const { return -kinetic * normal * std::tanh(slip / slip_speed); }
+    double coulomb(double normal, double slip) const { return normal * ratio(slip); }
+    // −∂F_t/∂v_t of Coulomb friction where |F_t|/N is `along` [N s/m].
+    double resistance(double normal, double along) const {
+        return kinetic > 0 ? normal * (kinetic - along * along / kinetic) / slip_speed : 0;
+    }
+    // The slip v with v − cF_t(N, v) = slip − c·friction, c = `mobility` [m/(N s)]: the law's pair of friction and slip
+    // that a slip which yields to friction by c passes from the present one.
+    double slip_near(double normal, double friction, double slip, double mobility) const;
     // Friction force on the beam along t, for a bristle with the deflection z [N].
     double force(FrictionState state, double normal, double slip, double z) const;
     // The bristle's deflection at which its spring carries the sliding force (S36).

@@ -17,14 +17,15 @@ constexpr int kMostNewtonCoupled = 14;  // where sweeps cost more, and a contrac
 // force amplifies it. Before the nodes that touch are found, the first sweeps may grow by up to kContactGrowth.
 constexpr double kContactRounding = 1e-11, kContactGrowth = 2;
 constexpr int kContactPatience = 5;
+constexpr double kMostRounding = 10;  // of the tolerance: changes that rounding of the force explains end the iteration
 constexpr double kTwoRoundings = 4e-16;  // of the beam's length, and of the way of the disc's centre
 // Largest of the last two Legendre coefficients, times the length of the step, of the rate of a polynomial that is zero
 // at the start and up to 1 at the nodes: rounding of a gap's rate becomes such a constraint force.
 constexpr double kRoughestRate = 136;
-// Where the damping of a contact decays by more than kFastDecay within a step, an error of a rate becomes a force that
-// no polynomial follows: the iteration may leave only a share of kContactShare. So it is from kSteadyDecay on where the
-// force varies by less than kSteadyForce: in a lasting contact it is the only error. Contractions vary from sweep to
-// sweep; kSlowestContraction is the poorest after a good one.
+// Where the damping or friction of a contact decays by more than kFastDecay within a step, an error of a rate becomes a
+// force that no polynomial follows: the iteration may leave only a share of kContactShare. So it is from kSteadyDecay
+// on where the force varies by less than kSteadyForce: in a lasting contact it is the only error. Contractions vary
+// from sweep to sweep; kSlowestContraction is the poorest after a good one.
 constexpr double kFastDecay = 5, kSteadyDecay = 2, kSteadyForce = 1e-2, kSlowestContraction = 0.03;
 constexpr double kDeepest = 0.5;  // of the cam's radius: beyond, the contact leaves its geometry
 
@@ -42,7 +43,7 @@ ContactStep::ContactStep(NodalStep& step)
       law_(step.system.normal_law()),
       friction_(step.system.friction()),
       expansion_(step.system),
-      bristle_(friction_),
+      friction_step_(friction_),
       row_t_(step.n),
       hq_end_(expansion_.scratch()),
       hq_(expansion_.scratch()),
@@ -56,7 +57,6 @@ void ContactStep::begin_touch(const ContactState& c) {
     const Phase& phase = step_.system.phase();
     BEAMCAM_ASSERT(!c.at_end && (phase.held || phase.approach > 0));
     held_ = phase.held;
-    couples_ = friction_.bristle || (held_ && load.rough);
     held_end_ = {c.force, step_.system.off_constraint(c.gap, c.gap_rate)};
     approach = phase.approach;
     gap_offset_ = phase.gap_offset;
@@ -71,24 +71,26 @@ double ContactStep::solve(const StepTable& nodal) {
     if (held_ && projected_.h != h) projected_.build_projected(form_.oscillators, nodal);
     const StepTable& table = held_ ? projected_ : nodal;
     step_.begin_attempt(h);
-    if (!linearize(table)) return kNoSolution;
+    linearize(table);
     // The feet of the last attempt are the first guess, unless they left the expansion.
     for (int k = 0; k < kNodes; ++k)
         if (!(std::fabs(load.contact.dx[k]) <= expansion_.range())) place_at_start();
     guess(table);
     FixedPoint iteration(kContactRounding, kContactGrowth, kContactPatience);
     auto status = FixedPoint::Status::going;
+    double change = 0;
     const int most = form_.by_arrays() ? kMostNewton : kMostNewtonCoupled;
     for (int sweep = 0; sweep < most && status == FixedPoint::Status::going; ++sweep) {
         if (!improve(table, sweep == 0 ? kFootCorrections : 1)) return kNoSolution;
         if (held_ || decays_ > (is_steady(load.force) ? kSteadyDecay : kFastDecay))
             iteration.demand(kShareOfIteration / kContactShare, kSlowestContraction);
-        const double change = step_.update_forcing(table, &load);
+        change = step_.update_forcing(table, &load);
         // The forces of a constraint follow the other forcing one sweep later: every second change shows the
         // contraction.
         if (!held_ || sweep % 2 == 1) status = iteration.add(change);
     }
-    if (status != FixedPoint::Status::settled && !iteration.enough()) return kNoSolution;
+    const bool rounded = change <= std::min(kMostRounding, of_force(force_rounding_));
+    if (status != FixedPoint::Status::settled && !iteration.enough() && !rounded) return kNoSolution;
     move(-1);
     step_.propagate(table);
     step_.propagate_rates(table);
@@ -98,7 +100,7 @@ double ContactStep::solve(const StepTable& nodal) {
         step_.propagate(nodal);
         step_.propagate_rates(nodal);
     }
-    if (friction_.bristle) bristle_.settle(load.force, load.contact.slip, load.friction, s.bristle_rate);
+    if (friction_.bristle) friction_step_.settle(load.force, load.contact.slip, load.friction, s.bristle_rate);
     step_.arrive(table);
     end.dx = load.contact.dx[kNodes - 1];
     state_ = step_.next;
@@ -137,11 +139,11 @@ void ContactStep::guess(const StepTable& table) {
                 law_.at(start.radius).force(-start.gap - start.gap_rate * tau[k], -start.gap_rate, approach);
         }
     }
-    load.friction = friction_.bristle ? bristle_.guess(load.force, start.slip) : Lanes{};
+    load.friction = load.rough ? friction_step_.guess(load.force, start.slip) : Lanes{};
     step_.propagate_unforced(table);
     for (std::size_t i = 0; i < step_.n; ++i) s.f[i] += load.force * (row[i] / form_.mass);
     s.p_dot = load.force * start.hub - form_.gravity * form_.S * step_.cos + step_.torque;
-    if (friction_.bristle) {
+    if (load.rough) {
         for (std::size_t i = 0; i < step_.n; ++i) s.f[i] += load.friction * (row_t_[i] / form_.mass);
         s.p_dot += load.friction * start.hub_t;
     }
@@ -168,27 +170,20 @@ bool ContactStep::improve(const StepTable& table, int corrections) {
     force_rounding_ = depth_rounding() * largest(by_depth) + rate_rounding() * largest(by_rate);
     if (held_) force_rounding_ *= kRoughestRate / mobility_contact_;
     decays_ = held_ ? 0 : largest(by_rate) * mobility_contact_;
-    Lanes ahead;
-    if (friction_.bristle) {
-        Lanes gap, rate;
-        ahead = bristle_.ahead(load.force, load.friction, contact.slip, gap, rate);
-        residual -= by_depth * gap + by_rate * rate;
+    if (load.rough) {
+        if (!friction_step_.linearize(load.force, load.friction, contact.slip)) return false;
+        decays_ = std::max(decays_, friction_step_.decay());
+        residual -= by_depth * friction_step_.gap_ahead() + by_rate * friction_step_.gap_rate_ahead();
     }
+    const NodalCompliance& response = load.rough ? friction_step_.gap() : compliance_;
     NodalMatrix matrix;
     for (std::size_t l = 0; l < kNodes; ++l) {
-        matrix[l] = by_depth * compliance_.value[l] + by_rate * compliance_.rate[l];
-        if (held_ && couples_) {  // the friction that the normal force causes
-            const double ratio = friction_.ratio(contact.slip[static_cast<int>(l)]);
-            matrix[l] += ratio * (by_depth * across_.value[l] + by_rate * across_.rate[l]);
-        }
+        matrix[l] = by_depth * response.value[l] + by_rate * response.rate[l];
         if (!held_) matrix[l][static_cast<int>(l)] += 1;
     }
     if (!solve_dense(matrix, {&residual, 1})) return false;
     load.force += residual;
-    if (friction_.bristle)
-        load.friction += ahead + bristle_.follow(residual);
-    else if (load.rough)
-        for (int k = 0; k < kNodes; ++k) load.friction[k] = friction_.coulomb(load.force[k], contact.slip[k]);
+    if (load.rough) load.friction += friction_step_.change(residual);
     return true;
 }
 
@@ -217,8 +212,8 @@ ForceAndSlopes ContactStep::normal_residual(int k) const {
     return at;
 }
 
-// How the gap responds to nodal normal forces, with the rows at the start, for Newton's method. False: it is singular.
-bool ContactStep::linearize(const StepTable& table) {
+// How gap and slip respond to nodal forces, with the rows at the start, for Newton's method.
+void ContactStep::linearize(const StepTable& table) {
     const double h = table.h;
     const auto compliance = [&](double hub, const std::vector<double>& a, const std::vector<double>& b) {
         return nodal_compliance(table, form_.mass, form_.prescribed ? 0 : hub / form_.J, a, b);
@@ -229,7 +224,7 @@ bool ContactStep::linearize(const StepTable& table) {
         const double jn = row[i], reach = std::min(h, 1 / form_.oscillators[i].omega);
         const double moved = jn / form_.mass * reach, moved_t = row_t_[i] / form_.mass * reach;
         mobility2 += moved * moved;
-        if (friction_.bristle) mobility2 += moved_t * moved_t;
+        if (load.rough) mobility2 += moved_t * moved_t;
         rate2 += jn * jn / form_.mass / form_.mass;
     }
     Lanes turned{};  // by a unit force from the start on
@@ -238,31 +233,30 @@ bool ContactStep::linearize(const StepTable& table) {
     mobility_modes_ = std::sqrt(mobility2);
     mode_rate_per_impulse = std::sqrt(rate2);
     gap_rate_per_impulse_ = rate2 * form_.mass + (form_.prescribed ? 0 : start.hub * start.hub / form_.J);
-    const double arm = friction_.bristle ? std::hypot(start.hub, start.hub_t) : std::fabs(start.hub);
+    const double arm = load.rough ? std::hypot(start.hub, start.hub_t) : std::fabs(start.hub);
     mobility_hub_ = form_.prescribed ? 0 : arm * h / form_.J;
-    if (!couples_) return true;
-    across_ = compliance(start.hub * start.hub_t, row, row_t_);
-    if (!friction_.bristle) return true;
-    bristle_.begin(step_.system.phase().friction, step_.segment.bristle0, h);
-    return bristle_.eliminate(across_, compliance(start.hub_t * start.hub_t, row_t_, row_t_), compliance_);
+    if (!load.rough) return;
+    friction_step_.begin(step_.system.phase().friction, step_.segment.bristle0, h, compliance_,
+                         compliance(start.hub * start.hub_t, row, row_t_),
+                         compliance(start.hub_t * start.hub_t, row_t_, row_t_));
 }
 
 double ContactStep::error(double h) {
     const double smooth = step_.forcing_error(h, &load);
     double force = quadrature_error(load.force, force_rounding_);
     if (load.rough) force = std::max(quadrature_error(load.friction, force_rounding_), force);
+    if (load.rough && !friction_.bristle)
+        force = std::max(largest(load.force) * friction_step_.missed(start.slip, load.contact.slip, end.slip), force);
     if (friction_.bristle)  // of the deflection at the end, by its force
         force =
             std::max(quadrature_error(friction_.stiffness * h * step_.segment.bristle_rate, force_rounding_), force);
     if (!std::isfinite(force)) return force;  // a maximum of several would hide it
-    const double of_force =
-        (held_ ? kHeldShare : kContactShare) *
-        std::max({smooth, force * mobility_modes_ / step_.scale_modes, force * mobility_hub_ / step_.scale_theta_dot});
-    if (!held_) return of_force;
+    const double contact = (held_ ? kHeldShare : kContactShare) * std::max(smooth, of_force(force));
+    if (!held_) return contact;
     // The impulse by which `hold_end` will put the end on the constraint.
     const double impulse = std::fabs(off(end) - share_left(h) * off(start)) / gap_rate_per_impulse_;
     const double hub = form_.prescribed ? 0 : impulse * std::fabs(start.hub) / form_.J;
-    return std::max({of_force, impulse * mode_rate_per_impulse / step_.scale_modes, hub / step_.scale_theta_dot});
+    return std::max({contact, impulse * mode_rate_per_impulse / step_.scale_modes, hub / step_.scale_theta_dot});
 }
 
 bool ContactStep::deep() const {
@@ -283,7 +277,7 @@ void ContactStep::fill(TouchSamples& samples) const {
         samples.t[k] = t;
         samples.gap[k] = gap;
         samples.gap_rate[k] = rate;
-        samples.force[k] = normal_force;
+        samples.force[k] = std::max(0.0, normal_force);  // of a constraint less is rounding
         samples.friction[k] = tangential;
         samples.x[k] = expansion_.at() + dx;
     };

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "sim/integrate/bristle_step.hpp"
+#include "sim/integrate/friction_step.hpp"
 #include "sim/integrate/nodal_step.hpp"
 
 namespace beamcam::sim {
@@ -30,7 +30,7 @@ class ContactStep {
     // After an accepted step of sustained contact: puts its end on the constraint.
     void hold_end();
     void fill(TouchSamples& samples) const;
-    const BristleStep& bristle() const { return bristle_; }  // of the step just solved
+    const FrictionStep& friction() const { return friction_step_; }  // of the step just solved
 
     ContactKinematics<double> start, end;
     ContactLoad load;
@@ -50,8 +50,12 @@ class ContactStep {
     double disc_travel() const;  // since t = 0 [m]
     ForceAndSlopes normal_residual(int k) const;
     void place_contact(int corrections);
-    bool linearize(const StepTable& table);
+    void linearize(const StepTable& table);
     void move(double sign);
+    // What an error of the force changes in the step, in units of the tolerance.
+    double of_force(double error) const {
+        return error * std::max(mobility_modes_ / step_.scale_modes, mobility_hub_ / step_.scale_theta_dot);
+    }
     double error(double h);
 
     NodalStep& step_;
@@ -59,10 +63,9 @@ class ContactStep {
     const NormalLaw& law_;
     const FrictionLaw& friction_;
     ContactExpansion expansion_;
-    BristleStep bristle_;
-    std::vector<double> row_t_;  // where friction couples: ∂(t·r)/∂q of the modes at the start
+    FrictionStep friction_step_;
+    std::vector<double> row_t_;  // with friction: ∂(t·r)/∂q of the modes at the start
     bool held_ = false;          // sustained impulsive contact
-    bool couples_ = false;       // Newton's equations contain the friction that a change of the normal force causes
     struct Held {
         double force = 0;  // [N]
         double off = 0;    // ġ + κg, by which a state is off the constraint (S45) [m/s]
@@ -71,14 +74,13 @@ class ContactStep {
     StepTable projected_;   // of the vibrations, in sustained contact
     double gap_offset_ = 0;
     double force_rounding_ = 0;  // of the force by rounding of the penetration and its rate [N]
-    double decays_ = 0;          // decay of the contact's own damping within the step [–]
+    double decays_ = 0;          // decay of a gap's rate or a slip by the contact's forces within the step [–]
     double mobility_modes_ = 0, mobility_hub_ = 0, mobility_contact_ = 0;
     double gap_rate_per_impulse_ = 0;  // [1/kg]
     Frame<Lanes> frame_;
     Lanes cam_angle_{};                            // ψ at the nodes
     Lanes contact_theta_{}, contact_theta_dot_{};  // where the contact was evaluated last
-    NodalCompliance compliance_;                   // of the gap, with the friction of a bristle
-    NodalCompliance across_;                       // of the gap to friction, where it couples
+    NodalCompliance compliance_;                   // of the gap to normal forces
     std::vector<double> hq_end_, state_;
     std::vector<Lanes> hq_, coordinate_rows_;
 };

@@ -12,64 +12,23 @@ constexpr double kLeastLength = 1e-14, kLeastShift = 1e-16;  // [s] below the ro
 constexpr double kResolvedTurn = 2;  // [rad] of a mode between two instants, which their cubic resolves (S58)
 
 double ContactStepEnd::cut(double error, Ending& ending) {
-    double end = event_at_nodes(step_.segment.h, ending);
-    if (friction_.bristle) {
-        const double slips = FrictionMargin(step_, contact_).end(ending == Ending::open, false);
-        if (slips < end) {
-            ending = Ending::friction;
-            end = slips;
-        }
-    }
-    // A step far beyond the release only shows how long the next one is.
-    if (ending != Ending::open) error = solve_to(end, ending);
-    // Repeated while the shorter step has an event that no node shows.
-    for (int cuts = 0; error <= 1; ++cuts) {
+    // A step far beyond the release only shows how long the next one is. The shorter one may have an event that this
+    // one does not show.
+    for (int cuts = 0; cuts == 0 || error <= 1; ++cuts) {
         Ending found = Ending::open;
-        const double earlier = event_between_nodes(ending, found);
+        const double end = first_event(ending, found);
         if (found == Ending::open) break;
         if (cuts == kMostCuts) return kNoSolution;
         ending = found;
         carry = 0;
-        error = solve_to(earlier, ending);
+        error = solve_to(end, ending);
     }
     return error;
 }
 
-// Its length, or the first instant at which the gap opens or the clamp changes, from the nodal values.
-double ContactStepEnd::event_at_nodes(double h, Ending& ending) const {
-    const Collocation& gauss = Collocation::get();
-    const ContactKinematics<Lanes>& nodes = contact_.load.contact;
-    double before = 0, gap = contact_.start.gap, last = factor(contact_.start.gap_rate);
-    if (std::fabs(last) < kZeroFactor) last = factor(nodes.gap_rate[0]);
-    for (int k = 0; k <= kNodes; ++k) {
-        const double t = k < kNodes ? h * gauss.c[k] : h;
-        const double g = k < kNodes ? nodes.gap[k] : contact_.end.gap;
-        const double r = k < kNodes ? nodes.gap_rate[k] : contact_.end.gap_rate;
-        const double now = factor(r);
-        double first = kNoSolution;
-        if (g > 0 && t > 0) {
-            ending = Ending::release;
-            first = before + (t - before) * (gap < g ? std::clamp(-gap / (g - gap), 0.0, 1.0) : 1.0);
-            if (r > 0) first = std::max(before, t - g / r);
-        }
-        if ((now > 0) != (last > 0) && std::fabs(now) > kZeroFactor) {
-            const double at = before + (t - before) * last / (last - now);
-            if (at < first) {
-                ending = Ending::clamp;
-                first = at;
-            }
-        }
-        if (std::isfinite(first)) return first;
-        before = t;
-        gap = g;
-        if (std::fabs(now) > kZeroFactor) last = now;
-    }
-    return h;
-}
-
-// When the first event between the nodes falls in the step just solved, and which.
-double ContactStepEnd::event_between_nodes(Ending ending, Ending& found) {
-    const double first = force_event_between_nodes(ending, found);
+// When the first event falls in the step just solved, and which.
+double ContactStepEnd::first_event(Ending ending, Ending& found) {
+    const double first = first_force_event(ending, found);
     if (!friction_.bristle) return first;
     const double slips = FrictionMargin(step_, contact_).end(found == Ending::open, ending == Ending::friction);
     if (!(slips < first)) return first;
@@ -77,8 +36,8 @@ double ContactStepEnd::event_between_nodes(Ending ending, Ending& found) {
     return slips;
 }
 
-// An event of the normal force between nodes: the gap opens, or the clamp begins or ends.                       (S58)
-double ContactStepEnd::force_event_between_nodes(Ending ending, Ending& found) {
+// An event of the normal force: the gap opens, or the clamp begins or ends.                                     (S58)
+double ContactStepEnd::first_force_event(Ending ending, Ending& found) {
     const Collocation& gauss = Collocation::get();
     const ContactKinematics<Lanes>& nodes = contact_.load.contact;
     const double h = step_.segment.h, deep = kGapRounding * step_.form->length;

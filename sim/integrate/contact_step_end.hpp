@@ -31,9 +31,8 @@ class ContactStepEnd {
     double carry = 0;
 
   private:
-    double event_at_nodes(double h, Ending& ending) const;
-    double event_between_nodes(Ending ending, Ending& found);
-    double force_event_between_nodes(Ending ending, Ending& found);
+    double first_event(Ending ending, Ending& found);
+    double first_force_event(Ending ending, Ending& found);
     double solve_to(double end, Ending ending);
     double to_event(double h, Ending ending) const;
     Guard penetration_at(double after);

@@ -24,7 +24,7 @@ void ContactStep::begin() {
     place_at_start();
     double along_n[kMaxSize] = {start.hub}, along_t[kMaxSize] = {start.hub_t};
     for (std::size_t i = 0; i < step_.n; ++i)
-        expansion_.rows(start, hq_end_.data(), i, couples_, along_n[1 + i], along_t[1 + i]);
+        expansion_.rows(start, hq_end_.data(), i, load.rough, along_n[1 + i], along_t[1 + i]);
     const auto to_modes = [&](const double* coordinates, std::vector<double>& rows) {
         if (form_.by_arrays())
             std::copy_n(coordinates + 1, step_.n, rows.begin());
@@ -32,7 +32,7 @@ void ContactStep::begin() {
             product(step_.n, step_.n + 1, form_.mode_rows.data(), coordinates, rows.data());
     };
     to_modes(along_n, row);
-    if (couples_) to_modes(along_t, row_t_);
+    if (load.rough) to_modes(along_t, row_t_);
 }
 
 void ContactStep::place_at_start() {

@@ -13,7 +13,7 @@ constexpr int kPartsBetweenNodes = 4;     // in which a polynomial of degree sev
 
 FrictionMargin::FrictionMargin(const NodalStep& step, const ContactStep& contact) : h_(step.segment.h) {
     const FrictionLaw& friction = step.system.friction();
-    const BristleStep& bristle = contact.bristle();
+    const FrictionStep& bristle = contact.friction();
     const ContactKinematics<Lanes>& nodes = contact.load.contact;
     const StepPolynomial acceleration = StepPolynomial::through(nodes.gap_rate).derivative(h_);
     const auto margin = [&](int k, double gap, double gap_rate, double slip, double z, double radius) {

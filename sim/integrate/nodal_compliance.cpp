@@ -1,16 +1,30 @@
 #include "sim/integrate/nodal_compliance.hpp"
 
-#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace beamcam::sim {
 
-bool solve_dense(const NodalMatrix& a, std::span<Lanes> b) {
-    using Square = Eigen::Matrix<double, kNodes, kNodes>;
-    Eigen::Map<Eigen::Matrix<double, kNodes, Eigen::Dynamic>> x(&b[0][0], kNodes, static_cast<Eigen::Index>(b.size()));
-    x = Eigen::PartialPivLU<Square>(Eigen::Map<const Square>(reinterpret_cast<const double*>(a.data())))
-            .solve(x)
-            .eval();
-    return x.allFinite();
+// By Gauss and Jordan's elimination with pivots by columns.
+bool solve_dense(NodalMatrix a, std::span<Lanes> b) {
+    for (int k = 0; k < kNodes; ++k) {
+        Lanes& column = a[static_cast<std::size_t>(k)];
+        int p = k;
+        for (int i = k + 1; i < kNodes; ++i)
+            if (std::fabs(column[i]) > std::fabs(column[p])) p = i;
+        std::swap(column[k], column[p]);
+        if (!(std::fabs(column[k]) > 0)) return false;
+        const auto eliminate = [&](Lanes& x) {
+            const double pivot = x[p] / column[k];
+            x[p] = x[k];
+            x -= column * pivot;
+            x[k] = pivot;
+        };
+        std::for_each(a.begin() + k + 1, a.end(), eliminate);
+        std::ranges::for_each(b, eliminate);
+    }
+    return true;
 }
 
 NodalCompliance nodal_compliance(const StepTable& table, double mass, double hub, const std::vector<double>& a,

@@ -14,7 +14,7 @@ namespace beamcam::sim {
 using NodalMatrix = std::array<Lanes, kNodes>;
 
 // Solves a x = b for each b, b ← x. False: a is singular.
-bool solve_dense(const NodalMatrix& a, std::span<Lanes> b);
+bool solve_dense(NodalMatrix a, std::span<Lanes> b);
 
 inline Lanes operator*(const NodalMatrix& a, const Lanes& x) {
     Lanes y{};

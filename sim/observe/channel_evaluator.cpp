@@ -69,7 +69,7 @@ double ChannelEvaluator::value(Channel channel) {
         case ChannelKind::tip_rate:
             return tip(channel.kind);
         case ChannelKind::contact_force:
-            return system_.phase().touching ? contact().force : 0;
+            return system_.phase().touching ? std::max(0.0, contact().force) : 0;  // of a constraint less is rounding
         case ChannelKind::friction_force:
             return system_.phase().touching ? contact().friction : 0;
         case ChannelKind::gap:

@@ -706,7 +706,7 @@ TEST(ExponentialFlight, CountsVibrationThatDecaysBeforeTheFirstNode) {
         EXPECT_LT(r.energy_residual_max, rtol * r.energy_scale) << rtol;
         EXPECT_LT(r.counters.steps, 3000) << rtol;
         ASSERT_GE(r.impacts.size(), 3u);
-        EXPECT_NEAR(*r.impacts[2].force_peak / *exact.impacts[2].force_peak, 1, rtol) << rtol;
+        EXPECT_NEAR(*r.impacts[2].force_peak / *exact.impacts[2].force_peak, 1, 2 * rtol) << rtol;
     }
 }
 

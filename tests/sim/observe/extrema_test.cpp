@@ -553,5 +553,17 @@ TEST(EnergyBalance, IsWatchedWithinSteps) {
     }
 }
 
+// Sustained contact ends where the force of its constraint vanishes, but for rounding.
+TEST(Extrema, AContactForceIsNotNegative) {
+    Problem p;
+    p.beam.modes = 4;
+    p.contact.model = ContactModel::restitution;
+    p.contact.restitution = 0;
+    Request request;
+    request.end_time = 1;
+    request.extrema = {channel("contact_force")};
+    EXPECT_EQ(simulate(p, request).extrema[0].min, 0);
+}
+
 }  // namespace
 }  // namespace beamcam::sim

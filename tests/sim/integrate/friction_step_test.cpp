@@ -1,6 +1,6 @@
 // Stick-slip friction in steps of the collocation: the elimination of the bristle against the complete equations, its
 // deflection against closed forms, and whole motions against the Runge–Kutta method.
-#include "sim/integrate/bristle_step.hpp"
+#include "sim/integrate/friction_step.hpp"
 
 #include <Eigen/LU>
 #include <cmath>
@@ -32,53 +32,82 @@ FrictionLaw bristle_law() {
     return law;
 }
 
-// Newton's equations of a linear normal force N = −aδ − bδ̇ and of the bristle, all together.
-TEST(BristleStep, EliminationSolvesTheCompleteEquations) {
+// Newton's equations of a linear normal force N = −aδ − bδ̇ and of friction, all together.
+TEST(FrictionStep, EliminationSolvesTheCompleteEquations) {
     Dice dice(3);
-    for (const FrictionState state : {FrictionState::stick, FrictionState::slide_plus, FrictionState::slide_minus}) {
-        const FrictionLaw law = bristle_law();
+    FrictionLaw coulomb;
+    coulomb.kinetic = coulomb.limit = 0.4;
+    coulomb.slip_speed = 0.6;
+    const std::pair<FrictionLaw, FrictionState> cases[] = {{bristle_law(), FrictionState::stick},
+                                                           {bristle_law(), FrictionState::slide_plus},
+                                                           {bristle_law(), FrictionState::slide_minus},
+                                                           {coulomb, FrictionState::stick}};
+    for (const auto& [law, state] : cases) {
         const double a = 0.8, b = 0.2;
         const NodalCompliance across{random_matrix(dice), random_matrix(dice)},
             along{random_matrix(dice), random_matrix(dice)}, normal{random_matrix(dice), random_matrix(dice)};
-        const Lanes force = random_lanes(dice), friction = random_lanes(dice), slip = random_lanes(dice),
-                    residual = random_lanes(dice);
-        BristleStep bristle(law);
-        bristle.begin(state, 0.1, 0.5);
-        NodalCompliance with_friction = normal;
-        ASSERT_TRUE(bristle.eliminate(across, along, with_friction));
-        Lanes gap, rate;
-        const Lanes ahead = bristle.ahead(force, friction, slip, gap, rate);
+        const Lanes force = random_lanes(dice), slip = random_lanes(dice), residual = random_lanes(dice);
+        Lanes friction = random_lanes(dice);
+        if (!law.bristle)
+            for (int k = 0; k < kNodes; ++k) friction[k] = law.coulomb(force[k], slip[k]);
+        FrictionStep step(law);
+        step.begin(state, 0.1, 0.5, normal, across, along);
+        ASSERT_TRUE(step.linearize(force, friction, slip));
         NodalMatrix matrix;
         for (std::size_t l = 0; l < kNodes; ++l) {
-            matrix[l] = a * with_friction.value[l] + b * with_friction.rate[l];
+            matrix[l] = a * step.gap().value[l] + b * step.gap().rate[l];
             matrix[l][static_cast<int>(l)] += 1;
         }
-        Lanes change = residual - (a * gap + b * rate);
+        Lanes change = residual - (a * step.gap_ahead() + b * step.gap_rate_ahead());
         ASSERT_TRUE(solve_dense(matrix, {&change, 1}));
-        const Lanes friction_change = ahead + bristle.follow(change);
+        const Lanes friction_change = step.change(change);
 
-        Lanes now;  // friction of the bristle at this slip and normal force
+        Lanes now;  // friction at this slip and normal force
         Lanes bristle_rate;
-        bristle.settle(force, slip, now, bristle_rate);
-        const bool sticks = state == FrictionState::stick;
-        const double ratio = sticks ? 0 : FrictionLaw::sign(state) * law.kinetic;
+        step.settle(force, slip, now, bristle_rate);
         const Lanes first = change + (a * (normal.value * change) + b * (normal.rate * change)) +
                             (a * (across.value * friction_change) + b * (across.rate * friction_change));
-        Lanes second = friction_change + ratio * change;
-        if (sticks) second += law.stiffness * (across.value * change + along.value * friction_change);
+        Lanes second = friction_change;
+        const Lanes slipped = across.rate * change + along.rate * friction_change;
+        if (law.bristle && state == FrictionState::stick)
+            second += law.stiffness * (across.value * change + along.value * friction_change);
         for (int k = 0; k < kNodes; ++k) {
+            if (!law.bristle) {  // by differences of its law
+                const double d = 1e-6;
+                const auto at = [&](double share) {
+                    return law.coulomb(force[k] + share * d * change[k], slip[k] + share * d * slipped[k]);
+                };
+                second[k] -= (at(1) - at(-1)) / (2 * d);
+            } else if (state != FrictionState::stick) {
+                second[k] += FrictionLaw::sign(state) * law.kinetic * change[k];
+            }
             EXPECT_NEAR(first[k], residual[k], 1e-11) << k;
-            EXPECT_NEAR(second[k], now[k] - friction[k], 1e-11) << k;
+            EXPECT_NEAR(second[k], now[k] - friction[k], law.bristle ? 1e-11 : 1e-8) << k;
         }
     }
 }
 
-TEST(BristleStep, StoresTheWorkOfStick) {
+// v + cμN tanh(v/v_s) = v_t − cF_t has one solution, which Newton's method from v_t would miss.
+TEST(FrictionStep, CoulombsLawIsTakenWhereItGivesTheForceThatTheSlipYieldsTo) {
+    FrictionLaw law;
+    law.kinetic = law.limit = 0.5;
+    law.slip_speed = 1e-6;
+    for (const double slip : {0.0, 1e-9, -3e-6, 0.2, -40.0})
+        for (const double friction : {0.0, 1.0, -2.0})
+            for (const double mobility : {1e-6, 1e-3, 10.0}) {
+                const double v = law.slip_near(4, friction, slip, mobility);
+                EXPECT_NEAR(v - mobility * law.coulomb(4, v), slip - mobility * friction,
+                            1e-12 * (std::fabs(slip) + mobility));
+            }
+    EXPECT_EQ(law.slip_near(0, 0, 0.3, 1), 0.3);
+}
+
+TEST(FrictionStep, StoresTheWorkOfStick) {
     Dice dice(5);
     const FrictionLaw law = bristle_law();
-    BristleStep bristle(law);
+    FrictionStep bristle(law);
     const double h = 0.5, z0 = 0.1;
-    bristle.begin(FrictionState::stick, z0, h);
+    bristle.begin(FrictionState::stick, z0, h, {}, {}, {});
     const Lanes slip = random_lanes(dice);
     Lanes friction, rate;
     bristle.settle(random_lanes(dice), slip, friction, rate);
@@ -189,7 +218,7 @@ INSTANTIATE_TEST_SUITE_P(All, StickSlipMotion,
                                            Case{"OnAHub", {0.3, 0.4, {}}, 0.0184, 1500, hub}),
                          [](const auto& given) { return given.param.name; });
 
-TEST(BristleStep, TakesStepsThatDoNotFollowTheHighestMode) {
+TEST(FrictionStep, TakesStepsThatDoNotFollowTheHighestMode) {
     const auto steps = [](int modes, const Friction& friction) {
         Problem p;
         p.beam.modes = modes;
@@ -200,6 +229,49 @@ TEST(BristleStep, TakesStepsThatDoNotFollowTheHighestMode) {
     const StickSlipFriction bristle{0.2, {}, {}};
     EXPECT_LT(steps(30, bristle), 5 * steps(4, bristle));  // whose highest frequency is a sixtieth
     EXPECT_LT(steps(30, bristle), 1.5 * steps(30, CoulombFriction{}));
+}
+
+// Regularized friction holds a beam that a torque presses on a turning cam, and lets it slide.
+Problem pressed(double slip_speed, ContactModel model) {
+    Problem p;
+    p.beam.modes = 3;
+    p.hub.drive = ConstantTorque{-20};
+    p.cam->speed = 0;
+    p.contact.model = model;
+    p.contact.offset.reset();
+    p.contact.friction = CoulombFriction{0.4, slip_speed};
+    return p;
+}
+
+TEST(FrictionStep, CreepsInStepsThatDoNotFallWithTheSlipSpeed) {
+    for (const ContactModel model : {ContactModel::compliant, ContactModel::restitution}) {
+        Problem p = pressed(1e-3, model);
+        p.initial.shape = InitialShape::resting;
+        const long steps = run(p, 1).counters.steps;
+        p.contact.friction = CoulombFriction{0.4, 1e-5};
+        EXPECT_LT(run(p, 1).counters.steps, 30 * steps);
+    }
+}
+
+TEST(FrictionStep, SlidesAndCreepsAsByTheRungeKuttaMethod) {
+    Problem p = pressed(1e-5, ContactModel::compliant);
+    p.cam->speed = 3;
+    Request request;
+    request.tables.push_back(
+        {{0.1, 0.2, 0.3}, {channel("theta"), channel("tip_deflection"), channel("loss_friction")}});
+    Problem slow = p;
+    slow.solver.method = Method::rk8;
+    set_tolerance(slow, 1e-12);
+    const Table truth = simulate(slow, request).tables[0];
+    // In some of these runs the slip changes its sign between the last node of a step and its end.
+    for (const double rtol : {1e-7, 1e-8, 1e-9, 1e-10, 3e-11}) {
+        set_tolerance(p, rtol);
+        const Result fast = simulate(p, request);
+        EXPECT_EQ(fast.steps_by_method.size(), 1u) << "not all steps are of the collocation";
+        for (std::size_t i = 0; i < 3; ++i)
+            for (std::size_t row = 0; row < 3; ++row)
+                EXPECT_NEAR(fast.tables[0].values[i][row], truth.values[i][row], 30 * rtol) << i << " " << row;
+    }
 }
 
 }  // namespace
