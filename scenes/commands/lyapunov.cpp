@@ -51,7 +51,6 @@ std::string exponents_text(const sim::Exponents& e) {
 
 int act(const LyapunovArguments& args) {
     const Scene scene = load_scene(args.scene, args.common);
-    if (const auto refusal = sim::tangent_refusal(scene.problem)) throw UsageError(*refusal);
     sim::ExponentsRequest request = args.request;
     request.transient = args.transient ? transient_argument(*args.transient, scene.problem) : 20;
     if (args.duration) request.duration = positive_argument("--duration", *args.duration, dimension::kTime);

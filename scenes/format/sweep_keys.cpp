@@ -10,7 +10,6 @@
 #include "scenes/format/overrides.hpp"
 #include "scenes/format/suggest.hpp"
 #include "scenes/format/value_formats.hpp"
-#include "sim/orbit/exponents.hpp"
 #include "sim/problem/number_keys.hpp"
 
 namespace beamcam::scenes {
@@ -222,8 +221,6 @@ void check_sweep(ObjectReader& r, const Sweep& sweep) {
     if (!problem.cam && (sweep.sampling.kind == SampleKind::impacts || sweep.sampling.kind == SampleKind::section ||
                          sweep.sampling.kind == SampleKind::peaks))
         reject("sample", "there is no cam; use \"apexes\", or add a \"cam\"");
-    if (const auto refusal = sweep.sampling.exponents ? sim::tangent_refusal(problem) : std::nullopt)
-        reject("exponents", *refusal);
 }
 
 }  // namespace

@@ -70,6 +70,8 @@ class System final : public Ode {
     ContactState contact(double t, const double* y);
     // The contact of the state of `set_state`.
     ContactState current_contact(double t, const double* y);
+    // ∂g/∂ξ = ∂ġ/∂ξ̇ and ∂v_t/∂ξ̇ at the contact of the state of `set_state`; arrays of `coordinates` (S28).
+    void contact_rows(const ContactState& c, double* jn, double* jt) const { geometry_.rows(*model_, c, jn, jt); }
     // The forces of compliant contact with this geometry.
     void add_forces(ContactState& c, const double* y) const;
 
@@ -119,7 +121,6 @@ class System final : public Ode {
 
   private:
     ContactState contact_geometry(double t);
-    void contact_rows(const ContactState& c, double* jn, double* jt) const { geometry_.rows(*model_, c, jn, jt); }
     void add_torque(double t, double* f) const;
     void add_contact_force(const ContactState& c, double* f) const;
     double accelerate(double t, double* acc) const;

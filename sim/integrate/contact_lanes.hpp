@@ -72,15 +72,6 @@ inline Frame<double> frame_of(const TurningCam& cam, double t, double theta, dou
 }
 
 constexpr int kExpansionOrder = 6;
-// Numbers with N derivatives have a distance from the centre that is zero but for these: powers beyond N vanish, and
-// the foot needs the second derivative of the deflection.
-template <class T>
-consteval int expansion_order() {
-    if constexpr (requires { T::kDerivatives; })
-        return 2 + T::kDerivatives;
-    else
-        return kExpansionOrder;
-}
 constexpr std::size_t kMostNodes = 2 * kMaxModes + 24;  // of the integrals of `exact`
 
 // The contact at one instant or eight; names as in ContactState.
@@ -88,14 +79,14 @@ template <class T>
 struct ContactKinematics {
     T dx{};  // from the centre of the expansion to the foot; in: a first guess
     T gap, gap_rate, slip;
-    T nx, ny;                        // normal in the beam's frame
-    T radius;                        // ρ of the cam [m]
-    T hub;                           // ∂(n·r)/∂Θ
-    T hub_t;                         // ∂(t·r)/∂Θ with the moment of the face
-    T cam_n, cam_t;                  // n·Ḃ, t·Ḃ + ωR: power of the cam per force
-    T moment[expansion_order<T>()];  // ∫₀^dx v′ ξʲ/j! dξ
-    T v1;                            // slope
-    T shift;                         // a α
+    T nx, ny;                   // normal in the beam's frame
+    T radius;                   // ρ of the cam [m]
+    T hub;                      // ∂(n·r)/∂Θ
+    T hub_t;                    // ∂(t·r)/∂Θ with the moment of the face
+    T cam_n, cam_t;             // n·Ḃ, t·Ḃ + ωR: power of the cam per force
+    T moment[kExpansionOrder];  // ∫₀^dx v′ ξʲ/j! dξ
+    T v1;                       // slope
+    T shift;                    // a α
 };
 
 template <class T>
@@ -188,17 +179,16 @@ BEAMCAM_INLINE void taylor(const T* c, const T& dx, int count, T& out) {
 // Σ φ⁽ʲ⁺¹⁾ moment_j, so that the rows are the exact derivatives of the expanded gap.
 template <class T>
 BEAMCAM_INLINE void slope_moments(const T* c, const T& dx, T* moment) {
-    constexpr int kOrder = expansion_order<T>();
-    T term[kOrder];  // v⁽ᵐ⁺¹⁾ dxᵐ/m!
+    T term[kExpansionOrder];  // v⁽ᵐ⁺¹⁾ dxᵐ/m!
     T power = T{} + 1.0;
-    for (int m = 0; m < kOrder; ++m) {
+    for (int m = 0; m < kExpansionOrder; ++m) {
         term[m] = c[1 + m] * power;
         power = power * dx * (1.0 / (m + 1));
     }
     power = dx;
-    for (int j = 0; j < kOrder; ++j) {
+    for (int j = 0; j < kExpansionOrder; ++j) {
         moment[j] = term[0] * (1.0 / (j + 1));
-        for (int m = 1; m + j < kOrder; ++m) moment[j] = moment[j] + term[m] * (1.0 / (m + j + 1));
+        for (int m = 1; m + j < kExpansionOrder; ++m) moment[j] = moment[j] + term[m] * (1.0 / (m + j + 1));
         moment[j] = moment[j] * power;
         power = power * dx * (1.0 / (j + 1));
     }
@@ -207,7 +197,7 @@ BEAMCAM_INLINE void slope_moments(const T* c, const T& dx, T* moment) {
 template <class T>
 BEAMCAM_INLINE T slope_product(const T* moment, const T* derivatives) {
     T total = derivatives[1] * moment[0];
-    for (int j = 1; j < expansion_order<T>(); ++j) total = total + derivatives[1 + j] * moment[j];
+    for (int j = 1; j < kExpansionOrder; ++j) total = total + derivatives[1 + j] * moment[j];
     return total;
 }
 
@@ -215,11 +205,10 @@ template <class T>
 void ContactExpansion::evaluate(const T* q, const T* v, const Frame<T>& frame, double gap_offset, T* hq,
                                 ContactKinematics<T>& touch, int corrections) const {
     if (exact()) return evaluate_exact(q, v, frame, gap_offset, hq, touch, corrections);
-    constexpr int kDegree = expansion_order<T>();
     // Deflection, its rate and their derivatives at the centre.
-    T c[kDegree + 1], d[kDegree + 1];
-    product(kDegree + 1, n_, y_.data(), q, c);
-    product(kDegree + 1, n_, y_.data(), v, d);
+    T c[kOrder + 1], d[kOrder + 1];
+    product(kOrder + 1, n_, y_.data(), q, c);
+    product(kOrder + 1, n_, y_.data(), v, d);
     T turn{}, turn_rate{}, qhq{}, vhq{};
     if (shortening_) {
         product(n_, n_, shorten_.data(), q, hq);
@@ -237,9 +226,9 @@ void ContactExpansion::evaluate(const T* q, const T* v, const Frame<T>& frame, d
     T x = touch.dx, deflection, slope, bend, rx, ry, r1;
     T* moment = touch.moment;
     for (int i = 0;; ++i) {
-        taylor(c, x, kDegree + 1, deflection);
-        taylor(c + 1, x, kDegree, slope);
-        taylor(c + 2, x, kDegree - 1, bend);
+        taylor(c, x, kOrder + 1, deflection);
+        taylor(c + 1, x, kOrder, slope);
+        taylor(c + 2, x, kOrder - 1, bend);
         T u{};
         if (shortening_) {
             slope_moments(c, x, moment);
@@ -258,8 +247,8 @@ void ContactExpansion::evaluate(const T* q, const T* v, const Frame<T>& frame, d
     touch.dx = x;
     touch.v1 = slope;
     T speed, slope_speed, du{};
-    taylor(d, x, kDegree + 1, speed);
-    taylor(d + 1, x, kDegree, slope_speed);
+    taylor(d, x, kOrder + 1, speed);
+    taylor(d + 1, x, kOrder, slope_speed);
     if (shortening_) du = du0 - slope_product(moment, d);
     const Point<T> at{rx, ry, r1, slope, du, speed, -length * slope * slope_speed, slope_speed};
     finish(at, disc, frame, gap_offset, touch);
@@ -318,11 +307,10 @@ BEAMCAM_INLINE void ContactExpansion::finish(const Point<T>& at, const Disc<T>& 
 template <class T>
 BEAMCAM_INLINE void ContactExpansion::rows(const ContactKinematics<T>& touch, const T* hq, std::size_t i, bool friction,
                                            T& jn, T& jt) const {
-    constexpr int kDegree = expansion_order<T>();
     const double* y = transposed_.data() + i * (kOrder + 1);
     const T& x = touch.dx;
-    T phi = T{} + y[kDegree], axial{};
-    for (int m = kDegree - 1; m >= 0; --m) phi = y[m] + phi * x * (1.0 / (m + 1));
+    T phi = T{} + y[kOrder], axial{};
+    for (int m = kOrder - 1; m >= 0; --m) phi = y[m] + phi * x * (1.0 / (m + 1));
     if (exact()) {
         jn = touch.nx * hq[i] + touch.ny * hq[n_ + i];
         if (friction) jt = touch.ny * hq[i] - touch.nx * hq[n_ + i] + offset_ * phi;
@@ -330,12 +318,12 @@ BEAMCAM_INLINE void ContactExpansion::rows(const ContactKinematics<T>& touch, co
     }
     if (shortening_) {
         axial = -hq[i] - h_[i] * touch.shift;
-        for (int j = 0; j < kDegree; ++j) axial = axial - y[1 + j] * touch.moment[j];
+        for (int j = 0; j < kOrder; ++j) axial = axial - y[1 + j] * touch.moment[j];
     }
     jn = touch.nx * axial + touch.ny * phi;
     if (!friction) return;
-    T slope = T{} + y[kDegree];
-    for (int m = kDegree - 2; m >= 0; --m) slope = y[1 + m] + slope * x * (1.0 / (m + 1));
+    T slope = T{} + y[kOrder];
+    for (int m = kOrder - 2; m >= 0; --m) slope = y[1 + m] + slope * x * (1.0 / (m + 1));
     const double length = shortening_ ? 1 : 0;
     const T r1 = 1 - (0.5 * length) * touch.v1 * touch.v1, square = r1 * r1 + touch.v1 * touch.v1;
     jt = touch.ny * axial - touch.nx * phi + offset_ * slope * (r1 + length * touch.v1 * touch.v1) / square;

@@ -40,8 +40,9 @@ double longest_interval(const Problem& problem) {
     const double own = problem.cam && problem.contact.model == ContactModel::compliant ? kCompliant : 1;
     const double interval = std::min(own, cam_period(problem));
     System system(problem);
-    const auto& model = dynamic_cast<const ModalModel&>(system.model());
-    const double trace = model.damping() ? model.damping()->trace() / model.mass() : 0;
+    const Eigen::MatrixXd* damping = system.model().damping();
+    const Eigen::VectorXd inertia = system.model().linearize().mass.diagonal();
+    const double trace = damping ? damping->diagonal().cwiseQuotient(inertia.tail(damping->rows())).sum() : 0;
     return trace > 0 ? std::min(interval, kMaxDecay / trace) : interval;
 }
 
@@ -222,7 +223,7 @@ Chaos Exponents::chaos() const {
 }
 
 Exponents lyapunov_exponents(const Problem& problem, const ExponentsRequest& request, const Progress& progress) {
-    require_tangents(problem);
+    require_valid(problem);
     if (!(request.transient >= 0) || !(request.duration > 0) || request.blocks < 2 || request.count < 0)
         throw std::invalid_argument("exponents need transient >= 0, duration > 0, blocks >= 2 and count >= 0");
     const double end = request.transient + request.duration;

@@ -51,11 +51,8 @@ struct Exponents {
     bool chaotic() const { return chaos() == Chaos::shown; }
 };
 
-// Nothing if this problem has a tangent flow, else the reason and the remedy: models beyond first order have none.
-std::optional<std::string> tangent_refusal(const Problem& problem);
-
 // `progress` receives the time from the start of the transient. Throws SolverError, Interrupted; std::invalid_argument
-// where `tangent_refusal` has a reason.
+// for an invalid problem.
 Exponents lyapunov_exponents(const Problem& problem, const ExponentsRequest& request, const Progress& progress = {});
 
 // If `exponents` of this request show chaos, continues the motion for as long again. If neighbouring motions no longer

@@ -1,35 +1,11 @@
 #include "sim/orbit/flow_map.hpp"
 
-#include <fmt/format.h>
-
 #include <limits>
-#include <stdexcept>
 #include <utility>
 
-#include "sim/orbit/exponents.hpp"
 #include "sim/run/run.hpp"
 
 namespace beamcam::sim {
-
-std::optional<std::string> tangent_refusal(const Problem& problem) {
-    switch (problem.beam.model) {
-        case ModelKind::rigid:
-        case ModelKind::zeroth_order:
-        case ModelKind::first_order:
-            break;
-        case ModelKind::paper:
-        case ModelKind::second_order:
-        case ModelKind::exact:
-            return fmt::format("the model {} has no tangent flow; use beam.model first-order or rigid",
-                               name(problem.beam.model));
-    }
-    return std::nullopt;
-}
-
-void require_tangents(const Problem& problem) {
-    require_valid(problem);
-    if (const auto refusal = tangent_refusal(problem)) throw std::invalid_argument(*refusal);
-}
 
 InitialState motion_end(const Problem& problem, const InitialState& start, double duration, const Progress& progress) {
     Run run(problem, progress, {.end = duration, .start = &start});

@@ -25,16 +25,12 @@ struct FlowMap {
 // For a start in sustained contact: neighbouring initial states may leave the cam (free), or remain on it (kept).
 enum class StartOnCam { free, kept };
 
-// From `start` at t = 0, by the problem's method and tolerances, for problems that pass `require_tangents`. Throws
-// SolverError, Interrupted.
+// From `start` at t = 0, by the problem's method and tolerances. Throws SolverError, Interrupted.
 FlowMap flow_map(const Problem& problem, const InitialState& start, double duration, bool derivative,
                  const Progress& progress = {}, StartOnCam on_cam = StartOnCam::free);
 
 // The state after the duration, from `start` at t = 0, by the problem's own method.
 InitialState motion_end(const Problem& problem, const InitialState& start, double duration,
                         const Progress& progress = {});
-
-// Throws std::invalid_argument with the reason of `tangent_refusal` or of an invalid problem.
-void require_tangents(const Problem& problem);
 
 }  // namespace beamcam::sim

@@ -185,7 +185,6 @@ bool same_orbit(const PeriodicOrbit& a, const PeriodicOrbit& b) {
 }
 
 std::optional<std::string> orbit_refusal(const Problem& problem) {
-    if (auto refusal = tangent_refusal(problem)) return refusal;
     if (!problem.cam || problem.cam->speed == 0) return "periodic orbits need a cam that turns: set cam.speed";
     if (!is_independent_of_time(problem.hub.drive))
         return "periodic orbits need a hub.drive that does not depend on time: free, or a constant torque";
@@ -193,7 +192,7 @@ std::optional<std::string> orbit_refusal(const Problem& problem) {
 }
 
 std::vector<PeriodicOrbit> find_orbits(const Problem& given, const OrbitRequest& request, const Progress& progress) {
-    require_tangents(given);
+    require_valid(given);
     if (const auto refusal = orbit_refusal(given)) throw std::invalid_argument(*refusal);
     const Problem problem = for_orbits(given);
     const double turn = cam_period(problem);

@@ -13,22 +13,10 @@ namespace {
 
 constexpr double kSameSpeed = 1e-9;  // relative difference in speed by rounding of the gap at a touch
 
-constexpr int kFlow = kDirections - 1;  // this direction of the jets carries the time derivative of the motion itself
-
-void seed_column(JetState& s, int direction, const double* column, const double* units) {
-    const std::size_t n = s.xi.size();
-    for (std::size_t i = 0; i < n; ++i) {
-        s.xi[i].d[direction] = column[i] / units[i];
-        s.rate[i].d[direction] = column[n + i] / units[n + i];
-    }
-    s.bristle.d[direction] = column[2 * n] / units[2 * n];
-    s.approach.d[direction] = column[2 * n + 1] / units[2 * n + 1];
-}
-
 }  // namespace
 
-Saltation::Saltation(System& probe, ModalJets& jets, const Eigen::VectorXd& units)
-    : probe_(probe), jets_(jets), units_(units), n_(probe_.coordinates()), rows_(2 * n_ + kTangentMemories) {}
+Saltation::Saltation(System& probe, Variation& variation, const Eigen::VectorXd& units)
+    : probe_(probe), variation_(variation), units_(units), n_(probe_.coordinates()), rows_(2 * n_ + kTangentMemories) {}
 
 void Saltation::pass(double t, const double* before, const Phase& was, const double* after, const Phase& is,
                      Eigen::MatrixXd& tangents) {
@@ -53,11 +41,19 @@ void Saltation::start_on_cam(double t, const double* y, const Phase& is, Eigen::
     keep_on_cam(t, y, tangents);
 }
 
-Eigen::VectorXd Saltation::flow_after(const Instant& at) {
-    Eigen::VectorXd flow(probe_.size);
-    probe_.set_phase(at.is);
-    probe_.rhs(at.t, at.after, flow.data());
-    return flow;
+// The time derivative of the motion: of the rows of tangents, and of the time.
+Eigen::VectorXd Saltation::flow(double t, const double* y, const Phase& phase) {
+    Eigen::VectorXd rates(probe_.size), out = Eigen::VectorXd::Zero(rows_ + 1);
+    probe_.set_phase(phase);
+    probe_.rhs(t, y, rates.data());
+    out.head(2 * n_) = rates.head(2 * n_);
+    if (probe_.has_bristle()) out[variation_.bristle()] = rates[2 * n_];
+    out[variation_.time()] = 1;
+    return out;
+}
+
+Eigen::MatrixXd Saltation::in_si(const Eigen::MatrixXd& tangents) const {
+    return units_.cwiseInverse().asDiagonal() * tangents;
 }
 
 // Where ρ jumps, so does the force of sustained contact, and the tangents with it by what neighbours arrive later.
@@ -88,46 +84,22 @@ void Saltation::record_touch(const Instant& at) {
     touches_.push_back({at.t, -near_.gap_rate, at.t - left_, near_.x, near_.x + beyond - probe_.problem().beam.length});
 }
 
-// The state before an event as jets: the tangents from column `first` on and, in the last direction, the time
-// derivative of the motion.
-JetState Saltation::jets_before(const Instant& at, const Eigen::MatrixXd& tangents, Eigen::Index first) {
-    Eigen::VectorXd flow(probe_.size);
-    probe_.set_phase(at.was);
-    probe_.rhs(at.t, at.before, flow.data());
-    near_ = probe_.contact(at.t, at.before);
-    JetState s(probe_, at.t, at.before, at.was);
-    s.t.d[kFlow] = 1;
-    for (int i = 0; i < n_; ++i) {
-        s.xi[static_cast<std::size_t>(i)].d[kFlow] = flow[i];
-        s.rate[static_cast<std::size_t>(i)].d[kFlow] = flow[n_ + i];
-    }
-    if (probe_.has_bristle()) s.bristle.d[kFlow] = flow[2 * n_];
-    for (int k = 0; k < kFlow && first + k < tangents.cols(); ++k)
-        seed_column(s, k, tangents.col(first + k).data(), units_.data());
-    return s;
-}
-
 // Ξ v = D_xR v + (D_xR F⁻ + D_tR − F⁺) δt, δt = −D_x g v/ġ                                                       (S71)
 void Saltation::impact(const Instant& at, Eigen::MatrixXd& tangents) {
-    const Eigen::VectorXd flow = flow_after(at);
-    const double rebound = probe_.contact(at.t, at.after).gap_rate;
-    for (Eigen::Index first = 0; first == 0 || first < tangents.cols(); first += kFlow) {
-        JetState s = jets_before(at, tangents, first);
-        const double pre_set = probe_.problem().contact.restitution;
-        const Jet gap = jets_.contact(s, near_).gap;
-        if (first == 0) record_touch(at);
-        jets_.apply_impact(s, near_, !at.is.held && rebound > -kPlastic * near_.gap_rate ? pre_set : 0);
-        for (int k = 0; k < kFlow && first + k < tangents.cols(); ++k) {
-            const double delay = -gap.d[k] / gap.d[kFlow];
-            if (!std::isfinite(delay)) throw StepFailure("a touch without speed has no derivative");
-            for (int i = 0; i < n_; ++i) {
-                const Jet &xi = s.xi[static_cast<std::size_t>(i)], &rate = s.rate[static_cast<std::size_t>(i)];
-                tangents(i, first + k) = units_[i] * (xi.d[k] + (xi.d[kFlow] - flow[i]) * delay);
-                tangents(n_ + i, first + k) = units_[n_ + i] * (rate.d[k] + (rate.d[kFlow] - flow[n_ + i]) * delay);
-            }
-        }
-    }
+    const double rebound = probe_.contact(at.t, at.after).gap_rate, pre_set = probe_.problem().contact.restitution;
+    probe_.set_phase(at.was);
+    near_ = probe_.contact(at.t, at.before);
+    record_touch(at);
+    if (!(near_.gap_rate < 0)) throw StepFailure("a touch without speed has no derivative");
+    const bool bounces = !at.is.held && rebound > -kPlastic * near_.gap_rate;
+    variation_.set(at.t, at.before, at.was);
+    const Eigen::MatrixXd gap = variation_.contact().row(0), reset = variation_.impact(bounces ? pre_set : 0);
+    const Eigen::VectorXd before = flow(at.t, at.before, at.was), after = flow(at.t, at.after, at.is);
+    const Eigen::MatrixXd v = in_si(tangents), delay = -gap.leftCols(rows_) * v / near_.gap_rate;
+    tangents.topRows(n_) = v.topRows(n_) + (before - after).head(n_) * delay;
+    tangents.middleRows(n_, n_) = reset.leftCols(rows_) * v + (reset * before - after.segment(n_, n_)) * delay;
     tangents.bottomRows(kTangentMemories).setZero();
+    tangents = units_.asDiagonal() * tangents;
     if (!at.is.held) return;
     ++holds_;
     keep_on_cam(at.t, at.after, tangents);
@@ -137,15 +109,9 @@ void Saltation::impact(const Instant& at, Eigen::MatrixXd& tangents) {
 // removes the rounding errors of (S71) at a vanishing speed.
 void Saltation::keep_on_cam(double t, const double* y, Eigen::MatrixXd& tangents) {
     const int freedoms = 2 * n_;
-    Eigen::MatrixXd normals(freedoms, 2);  // gradients of gap and gap rate
-    const Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(rows_, rows_);
-    for (int first = 0; first < freedoms; first += kDirections) {
-        JetState s(probe_, t, y, Phase{});
-        const int count = std::min(kDirections, freedoms - first);
-        for (int k = 0; k < count; ++k) seed_column(s, k, basis.col(first + k).data(), units_.data());
-        const ContactKinematics<Jet>& contact = jets_.contact(s, near_);
-        for (int k = 0; k < count; ++k) normals.row(first + k) << contact.gap.d[k], contact.gap_rate.d[k];
-    }
+    variation_.set(t, y, Phase{});
+    // Gradients of gap and gap rate.
+    Eigen::MatrixXd normals = in_si(variation_.contact().leftCols(rows_).transpose()).topRows(freedoms);
     normals.col(0).normalize();
     normals.col(1) -= normals.col(0) * normals.col(0).dot(normals.col(1));
     normals.col(1).normalize();
@@ -156,49 +122,45 @@ void Saltation::keep_on_cam(double t, const double* y, Eigen::MatrixXd& tangents
 // State and force are continuous at a compliant touch. A new variable is its approach speed, unless that is the floor
 // or the speed of an earlier touch. (S72)
 void Saltation::begin_touch(const Instant& at, Eigen::MatrixXd& tangents) {
-    for (Eigen::Index first = 0; first == 0 || first < tangents.cols(); first += kFlow) {
-        JetState s = jets_before(at, tangents, first);
-        const double floor = probe_.problem().contact.approach_floor.value;
-        const bool keeps = -near_.gap_rate > floor && at.is.approach > 0 &&
-                           std::fabs(at.is.approach + near_.gap_rate) < kSameSpeed * at.is.approach;
-        const ContactKinematics<Jet>& contact = jets_.contact(s, near_);
-        if (first == 0) record_touch(at);
-        for (int k = 0; k < kFlow && first + k < tangents.cols(); ++k) {
-            tangents(2 * n_, first + k) = 0;  // the bristle starts without deflection
-            double& row = tangents(rows_ - 1, first + k);
-            const double delay = -contact.gap.d[k] / contact.gap.d[kFlow];
-            if (keeps) row = -units_[rows_ - 1] * (contact.gap_rate.d[k] + contact.gap_rate.d[kFlow] * delay);
-            if (at.is.approach == floor) row = 0;
-        }
+    probe_.set_phase(at.was);
+    near_ = probe_.contact(at.t, at.before);
+    record_touch(at);
+    const double floor = probe_.problem().contact.approach_floor.value;
+    const bool keeps = -near_.gap_rate > floor && at.is.approach > 0 &&
+                       std::fabs(at.is.approach + near_.gap_rate) < kSameSpeed * at.is.approach;
+    const Eigen::Index bristle = variation_.bristle(), approach = variation_.approach();
+    if (keeps) {
+        variation_.set(at.t, at.before, at.was);
+        const Eigen::MatrixXd contact = variation_.contact(), v = in_si(tangents),
+                              change = contact.leftCols(rows_) * v;  // of gap and gap rate
+        const double acceleration = contact.row(1) * flow(at.t, at.before, at.was);
+        tangents.row(approach) = -units_[approach] * (change.row(1) - change.row(0) * (acceleration / near_.gap_rate));
     }
+    tangents.row(bristle).setZero();  // it starts without deflection
+    if (at.is.approach == floor) tangents.row(approach).setZero();
 }
 
 // At break-away the friction force drops if μ_s > μ. When the bristle sticks again, its deflection is that of the
 // sliding force and its rate is continuous. (S36), (S71)
 void Saltation::change_friction(const Instant& at, Eigen::MatrixXd& tangents) {
     const FrictionLaw& friction = probe_.friction();
-    const Eigen::VectorXd flow = flow_after(at);
-    for (Eigen::Index first = 0; first < tangents.cols(); first += kFlow) {
-        JetState s = jets_before(at, tangents, first);
-        const ModalJets::Forces f = jets_.forces(s, at.was, near_);
-        std::vector<Jet> acceleration;
-        Jet bristle_rate;
-        jets_.flow(s, at.was, near_, acceleration, bristle_rate);
-        const Jet guard = friction.limit * f.normal - fabs(f.friction);
-        const Jet caught = jets_.sliding_bristle(at.was.friction, f);
-        for (int k = 0; k < kFlow && first + k < tangents.cols(); ++k) {
-            double& bristle = tangents(2 * n_, first + k);
-            if (at.is.friction == FrictionState::stick) {
-                bristle = units_[2 * n_] * caught.d[k];
-                continue;
-            }
-            const double delay = friction.limit > friction.kinetic ? -guard.d[k] / guard.d[kFlow] : 0;
-            for (int i = 0; i < n_; ++i)
-                tangents(n_ + i, first + k) +=
-                    units_[n_ + i] * (acceleration[static_cast<std::size_t>(i)].v - flow[n_ + i]) * delay;
-            bristle = 0;
-        }
+    const Eigen::VectorXd before = flow(at.t, at.before, at.was);
+    near_ = probe_.contact(at.t, at.before);
+    variation_.set(at.t, at.before, at.was);
+    const Eigen::MatrixXd forces = variation_.forces(), v = in_si(tangents);
+    const Eigen::Index bristle = variation_.bristle();
+    if (at.is.friction == FrictionState::stick) {
+        const double per_newton = friction.sliding_bristle(at.was.friction, 1);
+        tangents.row(bristle) = units_[bristle] * per_newton * forces.row(0).head(rows_) * v;
+        return;
     }
+    tangents.row(bristle).setZero();
+    if (!(friction.limit > friction.kinetic)) return;
+    const double sign = near_.friction < 0 ? -1 : 1;
+    const Eigen::RowVectorXd guard = friction.limit * forces.row(0) - sign * forces.row(1);
+    const Eigen::VectorXd jump = (before - flow(at.t, at.after, at.is)).segment(n_, n_);
+    const Eigen::RowVectorXd delay = -guard.head(rows_) * v / guard.dot(before);
+    tangents.middleRows(n_, n_) += units_.segment(n_, n_).asDiagonal() * jump * delay;
 }
 
 // The force is zero at the release: state and flow are continuous. The approach speed is dropped, unless the next touch

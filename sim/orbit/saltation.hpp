@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "sim/orbit/modal_jets.hpp"
+#include "sim/orbit/variation.hpp"
 
 namespace beamcam::sim {
 
@@ -19,9 +19,9 @@ struct TangentTouch {
 
 class Saltation {
   public:
-    // `probe` evaluates the contact at events. It, `jets` and `units` (of the rows of tangents) must outlive this
+    // `probe` evaluates the contact at events. It, `variation` and `units` (of the rows of tangents) must outlive this
     // object.
-    Saltation(System& probe, ModalJets& jets, const Eigen::VectorXd& units);
+    Saltation(System& probe, Variation& variation, const Eigen::VectorXd& units);
 
     // Applies the event between the states `before` and `after`, if there is one, to the tangents (in units). Throws
     // StepFailure at an impact whose speed is zero: neighbouring motions touch at an instant without derivative.
@@ -47,12 +47,12 @@ class Saltation {
     void change_friction(const Instant& at, Eigen::MatrixXd& tangents);
     void release(Eigen::MatrixXd& tangents);
     void keep_on_cam(double t, const double* y, Eigen::MatrixXd& tangents);
-    JetState jets_before(const Instant& at, const Eigen::MatrixXd& tangents, Eigen::Index first);
-    Eigen::VectorXd flow_after(const Instant& at);
+    Eigen::VectorXd flow(double t, const double* y, const Phase& phase);
+    Eigen::MatrixXd in_si(const Eigen::MatrixXd& tangents) const;
     void record_touch(const Instant& at);
 
     System& probe_;
-    ModalJets& jets_;
+    Variation& variation_;
     const Eigen::VectorXd& units_;
     int n_, rows_;
     ContactState near_;  // at the last event

@@ -9,7 +9,7 @@
 namespace beamcam::sim {
 namespace {
 
-constexpr double kTangentRounding = 1e-14;  // smallest tolerance of a step: rounding
+constexpr double kTangentRounding = 1e-11;  // smallest tolerance of a step: that of the differences of Variation
 // Least order of convergence of a step. Step lengths of neighbouring levels differ by √2.
 constexpr int kTangentOrder = 8;
 constexpr double kSameLength = 1e-13;  // of a step: rounding of the time
@@ -33,27 +33,23 @@ StepTable::Row hub_row(double h) {
 
 }  // namespace
 
-TangentStep::TangentStep(System& probe, ModalJets& jets, const Eigen::VectorXd& units, double rtol, Progress progress)
-    : probe_(probe),
-      jets_(jets),
+TangentStep::TangentStep(System& system, Variation& variation, const Eigen::VectorXd& units, double rtol,
+                         Progress progress)
+    : variation_(variation),
       units_(units),
       rtol_(std::max(rtol, kTangentRounding)),
       progress_(std::move(progress)),
-      n_(probe.coordinates()),
-      forced_(n_ + (probe.has_bristle() ? 1 : 0)),
+      n_(system.coordinates()),
+      forced_(n_ + (system.has_bristle() ? 1 : 0)),
       flight_level_(kFirstFlightLevel),
       touch_level_(kFirstTouchLevel),
-      y_(probe.size) {
-    const auto& model = dynamic_cast<const ModalModel&>(probe.model());
+      y_(system.size) {
+    const Model& model = system.model();
+    const Eigen::VectorXd inertia = model.linearize().mass.diagonal();
     for (int i = 0; i + 1 < n_; ++i) {
-        const double rate = model.damping() ? (*model.damping())(i, i) / model.mass() : 0;
+        const double rate = model.damping() ? (*model.damping())(i, i) / inertia[i + 1] : 0;
         oscillators_.push_back({model.frequency(i), 0.5 * rate});
     }
-}
-
-void TangentStep::begin(const Phase& phase) {
-    phase_ = phase;
-    probe_.set_phase(phase);
 }
 
 // The table of the step length of this level, or of the rest of the interval if that is shorter. Rows: hub, modes.
@@ -68,33 +64,11 @@ const StepTable& TangentStep::table(int level, double rest) {
 // D_xF at the nodes, without the oscillators.
 void TangentStep::differentiate(const Segment& motion, double t0, double h) {
     const Collocation& gauss = Collocation::get();
-    const int columns = 2 * n_ + kTangentMemories;
-    const int used = phase_.touching ? columns : 2 * n_;
-    Jet bristle_rate;
     for (int k = 0; k < kNodes; ++k) {
         const double t = t0 + h * gauss.c[k];
         motion.value(t, y_.data());
-        ContactState near;
-        if (phase_.touching) near = probe_.contact(t, y_.data());
-        derivative_[k].setZero(forced_, columns);
-        for (int first = 0; first < used; first += kDirections) {
-            JetState state(probe_, t, y_.data(), phase_);
-            const int count = std::min(kDirections, used - first);
-            for (int d = 0; d < count; ++d) {
-                const int row = first + d;
-                Jet& seeded = row < n_        ? state.xi[static_cast<std::size_t>(row)]
-                              : row < 2 * n_  ? state.rate[static_cast<std::size_t>(row - n_)]
-                              : row == 2 * n_ ? state.bristle
-                                              : state.approach;
-                seeded.d[d] = 1;
-            }
-            jets_.flow(state, phase_, near, acceleration_, bristle_rate);
-            for (int d = 0; d < count; ++d) {
-                for (int i = 0; i < n_; ++i)
-                    derivative_[k](i, first + d) = acceleration_[static_cast<std::size_t>(i)].d[d];
-                if (forced_ > n_) derivative_[k](n_, first + d) = bristle_rate.d[d];
-            }
-        }
+        variation_.set(t, y_.data(), phase_);
+        derivative_[k] = variation_.field().leftCols(2 * n_ + kTangentMemories);
         for (int i = 1; i < n_; ++i) {
             const Oscillator& o = oscillators_[static_cast<std::size_t>(i - 1)];
             derivative_[k](i, i) += o.omega * o.omega;

@@ -9,7 +9,7 @@
 
 #include "sim/integrate/integrator.hpp"
 #include "sim/integrate/oscillator.hpp"
-#include "sim/orbit/modal_jets.hpp"
+#include "sim/orbit/variation.hpp"
 #include "sim/run/simulate.hpp"
 
 namespace beamcam::sim {
@@ -18,11 +18,11 @@ inline constexpr int kTangentMemories = 2;  // additional rows: z and δ̇₋
 
 class TangentStep {
   public:
-    // `probe` evaluates the contact along the motion. It, `jets` and `units` (of the rows of tangents) must outlive
-    // this object. Errors are kept below rtol of each tangent.
-    TangentStep(System& probe, ModalJets& jets, const Eigen::VectorXd& units, double rtol, Progress progress);
+    // `variation` and `units` (of the rows of tangents) must outlive this object. Errors are kept below rtol of each
+    // tangent.
+    TangentStep(System& system, Variation& variation, const Eigen::VectorXd& units, double rtol, Progress progress);
 
-    void begin(const Phase& phase);
+    void begin(const Phase& phase) { phase_ = phase; }
     // From t0 to t1 inside the segment. Tangents are columns; their rows are in units. Throws StepFailure,
     // Interrupted.
     void advance(const Segment& motion, double t0, double t1, Eigen::MatrixXd& tangents);
@@ -34,8 +34,7 @@ class TangentStep {
     double solve(const StepTable& table, const Eigen::MatrixXd& before, Eigen::MatrixXd& after);
     double error(double h, const Eigen::MatrixXd& before, const Eigen::MatrixXd& after) const;
 
-    System& probe_;
-    ModalJets& jets_;
+    Variation& variation_;
     const Eigen::VectorXd& units_;
     double rtol_;
     Progress progress_;
@@ -46,7 +45,6 @@ class TangentStep {
     StepTables tables_{oscillators_};
     int flight_level_, touch_level_;
 
-    std::vector<Jet> acceleration_;
     Eigen::VectorXd y_;
     // Derivative of the forcing at each node: a row for each forced component, columns as the rows of tangents.
     Eigen::MatrixXd derivative_[kNodes];

@@ -1,5 +1,6 @@
 #include "sim/orbit/tangents.hpp"
 
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -8,22 +9,26 @@
 namespace beamcam::sim {
 namespace {
 
-constexpr double kSlowestMotion = 1e-3;  // [1/s] rate of the hub's unit without cam speed and gravity
-
 // √J Ω and √m ω_i of angle and deflections, √J and √m of their rates: each row is then the root of an energy.
 Eigen::VectorXd units_of(System& system) {
-    const Problem& problem = system.problem();
-    const auto& model = dynamic_cast<const ModalModel&>(system.model());
     const int n = system.coordinates();
-    const double speed = problem.cam ? std::fabs(problem.cam->speed) : 0;
-    const double pendulum = std::sqrt(std::fabs(problem.gravity) / problem.beam.length);
-    const double inertia = std::sqrt(model.matrices().J), mass = std::sqrt(model.mass());
-    Eigen::VectorXd units = Eigen::VectorXd::Constant(2 * n + kTangentMemories, mass);
-    units[0] = inertia * std::max({speed, pendulum, kSlowestMotion});
-    units[n] = inertia;
-    for (int i = 1; i < n; ++i) units[i] = mass * model.frequency(i - 1);
+    const Eigen::VectorXd inertia = system.model().linearize().mass.diagonal().cwiseSqrt();
+    Eigen::VectorXd units = Eigen::VectorXd::Constant(2 * n + kTangentMemories, inertia[n - 1]);
+    units[0] = inertia[0] * typical_rate(system.problem());
+    units.segment(n, n) = inertia;
+    for (int i = 1; i < n; ++i) units[i] = inertia[i] * system.model().frequency(i - 1);
     if (system.has_bristle()) units[2 * n] = std::sqrt(system.friction().stiffness);
     return units;
+}
+
+// M of the straight beam. A prescribed hub has none.
+Eigen::MatrixXd inertia_of(System& system) {
+    Eigen::MatrixXd mass = system.model().linearize().mass;
+    if (!system.drive().prescribed()) return mass;
+    mass.row(0).setZero();
+    mass.col(0).setZero();
+    mass(0, 0) = 1;
+    return mass;
 }
 
 }  // namespace
@@ -31,13 +36,14 @@ Eigen::VectorXd units_of(System& system) {
 Tangents::Tangents(const System& system, double end, double rtol, const Eigen::MatrixXd& tangents,
                    const Progress& progress)
     : probe_(system),
-      jets_(probe_),
+      variation_(probe_),
+      inertia_(inertia_of(probe_)),
       n_(probe_.coordinates()),
       units_(units_of(probe_)),
       tangents_(Eigen::MatrixXd::Zero(2 * n_ + kTangentMemories, tangents.cols())),
       y_(static_cast<std::size_t>(probe_.size)),
-      tangent_step_(probe_, jets_, units_, rtol, progress),
-      saltation_(probe_, jets_, units_),
+      tangent_step_(probe_, variation_, units_, rtol, progress),
+      saltation_(probe_, variation_, units_),
       end_(end) {
     tangents_.topRows(2 * n_) = tangents;
 }
@@ -67,9 +73,19 @@ void Tangents::step(const SegmentInterval& s) {
     y_ = std::move(end);
 }
 
-double Tangents::inertia_share() const { return jets_.inertia_share(y_.data() + 1); }
+double Tangents::inertia_share() {
+    Model& model = probe_.model();
+    Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(n_, n_);
+    Eigen::VectorXd forces(n_);
+    probe_.set_state(t_, y_.data());
+    model.assemble(forces.data());
+    const bool held = probe_.drive().prescribed();
+    for (int i = held ? 1 : 0; i < n_; ++i)
+        held ? void(model.solve_held(inverse.col(i).data(), 0)) : model.solve(inverse.col(i).data());
+    return 1 / (inertia_ * inverse).determinant();
+}
 
-Eigen::MatrixXd Tangents::tangents(bool canonical) const {
+Eigen::MatrixXd Tangents::tangents(bool canonical) {
     Eigen::MatrixXd all = tangents_;
     if (canonical) all.row(n_) *= inertia_share();
     return all;

@@ -37,7 +37,7 @@ class Tangents final : public Observer {
     // and gap rate are free there, and decay according to (S45).
     void start_on_cam() { starts_kept_ = true; }
     // The tangents; `canonical`: with the momentum ∂T/∂ξ̇ in place of ξ̇ (S73).
-    Eigen::MatrixXd tangents(bool canonical = false) const;
+    Eigen::MatrixXd tangents(bool canonical = false);
     // Makes the tangents orthonormal, in units. Returns the factor R by which they were the product QR.
     Eigen::MatrixXd factor();
     void set_canonical(const Eigen::MatrixXd& tangents);
@@ -47,7 +47,8 @@ class Tangents final : public Observer {
         if (phase_.held) saltation_.start_on_cam(t_, y_.data(), phase_, tangents_);
     }
 
-    double inertia_share() const;  // at the present instant (S73)
+    // At the present instant: the ratio of volumes in (ξ, ∂T/∂ξ̇) and in (ξ, ξ̇), up to a constant (S73).
+    double inertia_share();
 
     // Units of the rows: √J Ω and √m ω_i of ξ, √J and √m of ξ̇, then of z and δ̇₋.
     const Eigen::VectorXd& units() const { return units_; }
@@ -56,8 +57,9 @@ class Tangents final : public Observer {
     long lifts() const { return saltation_.lifts(); }  // ends of sustained contact
 
   private:
-    System probe_;  // evaluates the contact along the motion
-    ModalJets jets_;
+    System probe_;  // evaluates the contact and the inertia along the motion
+    Variation variation_;
+    Eigen::MatrixXd inertia_;  // M of the straight beam, of a prescribed hub with the hub's row and column of 1
     int n_;
     Eigen::VectorXd units_;
     Eigen::MatrixXd tangents_;  // at t_, in units

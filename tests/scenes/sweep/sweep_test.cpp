@@ -282,7 +282,6 @@ TEST(SweepCommand, RejectsWithAMessage) {
           {"--over 'cam.speed=100:900:9 rpm'", 2, "count must be a whole number"},
           {"--over 'cam.speed=100:900 rpm:9'", 2, "some of its numbers have a unit"},
           {"--over 'cam.speed=300 rpm,400'", 2, "some of its numbers have a unit"},
-          {"--set beam.model=exact --exponents", 2, "the model exact has no tangent flow"},
           {"--over cam.speed=40:44:3 --over gravity=9:10:2 --diagram d.pdf --value exponent", 2,
            "the sweep computes no exponents"},
           {"-o - --shard 1/2", 2, "name the table of the whole sweep"},

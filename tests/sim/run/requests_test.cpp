@@ -29,16 +29,16 @@ void expect_same_bits(const Result& a, const Result& b) {
 class EveryMethod : public ::testing::TestWithParam<Method> {};
 
 TEST_P(EveryMethod, ObservingNeverDisturbs) {
-    constexpr double kEnd = 0.35;  // two flights and a collision
+    constexpr double kTwoFlights = 0.35;  // two flights and a collision
     Problem p;
     p.solver.method = GetParam();
     for (const Friction& friction : {Friction{NoFriction{}}, Friction{StickSlipFriction{0.3, 0.4, {}}}}) {
         p.contact.friction = friction;
-        const Result plain = run(p, kEnd);
+        const Result plain = run(p, kTwoFlights);
         Request request;
-        request.end_time = kEnd;
+        request.end_time = kTwoFlights;
         std::vector<double> times;
-        for (int k = 0; k < 400; ++k) times.push_back(std::fmod(0.37 * k, kEnd));
+        for (int k = 0; k < 400; ++k) times.push_back(std::fmod(0.37 * k, kTwoFlights));
         request.tables.push_back({times, all_channels(p)});
         request.poses.push_back({times, 17});
         request.extrema = all_channels(p);
