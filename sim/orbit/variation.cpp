@@ -133,8 +133,7 @@ Eigen::MatrixXd Variation::force_slopes(const Eigen::MatrixXd& geometry) const {
     if (friction.none()) return slopes;
     if (!friction.bristle) {
         const double ratio = friction.ratio(at_.slip);
-        const double by_slip = (ratio * ratio / friction.kinetic - friction.kinetic) / friction.slip_speed;
-        slopes.row(1) = ratio * slopes.row(0) + normal.force * by_slip * geometry.row(kSlip);
+        slopes.row(1) = ratio * slopes.row(0) - friction.resistance(normal.force, ratio) * geometry.row(kSlip);
     } else if (phase.friction == FrictionState::stick) {
         slopes(1, bristle()) = -friction.stiffness;
     } else {
