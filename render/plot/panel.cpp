@@ -125,7 +125,7 @@ void PanelDrawing::label_rules() const {
         if (r.vertical && at.right() > within.right()) at.x = from.x - off - size.w;
         if (!r.vertical && at.y < within.y) at.y = to.y + off;
         while (std::ranges::any_of(labels, [&](const Box& other) { return at.overlaps(other); }))
-            r.vertical ? at.y += at.h : at.x -= at.w;
+            r.vertical ? at.y += at.h + off : at.x -= at.w + off;
         labels.push_back(at);
         sheet_.text({at.x, at.y - size.y}, r.label, l);
     }

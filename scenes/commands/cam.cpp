@@ -29,10 +29,14 @@ struct CamArguments {
 
 double in_degrees(double angle) { return angle * 180 / std::numbers::pi; }
 
+constexpr double kSameRadius = 1e-9;  // rounding of the radii of a circle
+
 std::string summary_text(const sim::Lever::Summary& s) {
     std::string text = fmt::format("base radius                  {:.9g} m\n", s.base_radius);
     text += fmt::format("least radius of curvature    {:.9g} m", s.rho_min);
-    if (std::isfinite(s.rho_min_phi)) text += fmt::format(" at the turn {:.6g} deg", in_degrees(s.rho_min_phi));
+    const bool differs = s.rho_max - s.rho_min > kSameRadius * s.rho_max;
+    if (differs && std::isfinite(s.rho_min_phi))
+        text += fmt::format(" at the turn {:.6g} deg", in_degrees(s.rho_min_phi));
     text += fmt::format("\nlargest radius of curvature  {:.9g} m\n", s.rho_max);
     text += fmt::format("largest pressure angle       {:.6g} deg\n", in_degrees(s.pressure_angle_max));
     text += s.jump
