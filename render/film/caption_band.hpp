@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/film/panel.hpp"
+#include "render/film/parameter_line.hpp"
 #include "render/plot/user_text.hpp"
 
 namespace beamcam::render {
@@ -14,7 +15,7 @@ class CaptionBand {
 
   private:
     const FilmContext& context_;
-    std::vector<FittedText> texts_;  // of the callouts
+    std::vector<std::vector<FittedText>> texts_;  // lines of the callouts
 };
 
 }  // namespace beamcam::render

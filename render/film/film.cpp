@@ -94,7 +94,8 @@ bool Film::Prepared::draw_header(Canvas& canvas) const {
     const Layout& places = context.places;
     if (const auto& b = places.title; b && !setup.title.empty()) {
         TextStyle style = title_style(context.look.letters, context.look.palette.ink);
-        const std::vector<FittedText> lines = fitted_title(canvas, setup.title, *b, context.look.letters);
+        const std::vector<FittedText> lines =
+            fitted_lines(canvas, setup.title, style, 0.7 * style.size, context.look.letters.heading, b->w);
         cut = lines.back().cut;
         for (double y = b->y + 0.95 * style.size; const FittedText& line : lines) {
             style.size = line.size;

@@ -19,6 +19,7 @@ constexpr double kBetweenRows = 24, kBetweenColumns = 30;  // [design px]
 
 // Wide pictures have charts beside the mechanism.
 bool is_wide(int width, int height) { return width >= 1.4 * height; }
+bool is_tall(int width, int height) { return height > 1.35 * width; }
 
 // The box in whole pixels, at least one in each direction.
 Box whole(const Box& b) {
@@ -53,14 +54,15 @@ PictureFrame picture_frame(int width, int height, const Shown& shown) {
         f.top += 64 * u;
     }
     if (has_parameters) {
-        out.parameters = Box{margin, f.top, w - 2 * margin, 40 * u};
-        f.top += 40 * u;
+        out.parameters =
+            Box{margin, f.top, w - 2 * margin, (is_tall(width, height) ? 72 : 40) * u};  // two lines or one
+        f.top += out.parameters->h;
     }
     if (shown.warning && is_large) {
         out.warning = Box{margin, f.bottom - 26 * u, w - 2 * margin, 26 * u};
         f.bottom -= 40 * u;
     }
-    const bool apart = has_scales && !wide;  // beside the clock there is not enough space
+    const bool apart = has_scales && w < 66 * out.letters.words;  // beside the clock there is not enough space
     if (apart) {
         out.scales = Box{w - margin - scales, f.bottom - 56 * u, scales, 56 * u};
         f.bottom -= 64 * u;
@@ -81,8 +83,6 @@ PictureFrame picture_frame(int width, int height, const Shown& shown) {
     }
     return f;
 }
-
-bool is_tall(int width, int height) { return height > 1.35 * width; }
 
 void place_grid(Layout& out, const LayoutNode& node, const Box& box);
 

@@ -9,22 +9,21 @@
 namespace beamcam::render {
 
 // Where the name of the line has room in the view: at its end or closer to the hub, on the side of `away`, where the
-// beam is not. The box extends away from the line at its corner, or the other way, and then begins farther from it.
+// beam is not, and towards the hub, where the trail of the tip is not.
 static std::optional<Box> box_of_name(const MechanismScene& s, const std::vector<Vec2>& line, Vec2 away, Vec2 size) {
     const Box inside = s.at.box.inset(s.at.fade());
-    for (std::size_t i = line.size(); i-- > 0 && !std::isnan(line[i].x);)
-        for (const double side : {away.x < 0 ? -1.0 : 1.0, away.x < 0 ? 1.0 : -1.0}) {
-            const Vec2 corner = line[i] + away * (0.6 * size.y + std::max(0.0, -side * away.x * size.x));
-            const Box box{side < 0 ? corner.x - size.x : corner.x, away.y < 0 ? corner.y - size.y : corner.y, size.x,
-                          size.y};
-            if (inside.contains(box)) return box;
-        }
+    for (std::size_t i = line.size(); i-- > 0 && !std::isnan(line[i].x);) {
+        const Vec2 corner = line[i] + away * (0.6 * size.y);
+        const Box box{away.x < 0 ? corner.x - size.x : corner.x, away.y < 0 ? corner.y - size.y : corner.y, size.x,
+                      size.y};
+        if (inside.contains(box)) return box;
+    }
     return std::nullopt;
 }
 
 // The straight beam at the angle of the hub, where the tip of the drawn beam is visibly elsewhere. In stills and in
-// slow motion of one motion, which give time to read it, the line has its name, and there is none without room for
-// that. The horizontal is a line of its own, and compared motions have lines of their own.
+// slow motion of one motion, which give time to read it, the line has its name where there is room, and on the side
+// away from θ. The horizontal is a line of its own, and compared motions have lines of their own.
 void draw_undeflected(const MechanismScene& s) {
     constexpr double kApart = 8, kSlow = 0.1;  // [design px]; of real time
     if (!s.at.labelled() || s.at.ghosts) return;
@@ -42,13 +41,12 @@ void draw_undeflected(const MechanismScene& s) {
     if (std::isnan(line.back().x)) return;
     const FilmSetup& setup = *s.at.context.setup;
     const bool slow = setup.speeds.empty() ? setup.frames() == 1 : setup.speeds[std::size_t(s.frame)] <= kSlow;
-    if (slow && s.at.context.members() == 1) {
+    if (slow && s.at.context.members() == 1 && apart.y * along.y < 0) {
         const TextStyle style{.size = s.at.context.look.letters.words, .color = s.at.palette.muted};
         const std::string word = s.at.context.look.translate("undeflected");
-        const std::optional<Box> box =
-            box_of_name(s, line, apart * (1 / norm(apart)), {s.canvas.measure(word, style).w, style.size});
-        if (!box) return;
-        s.canvas.text({box->x, box->bottom() - 0.2 * style.size}, word, style);
+        if (const auto box =
+                box_of_name(s, line, apart * (1 / norm(apart)), {s.canvas.measure(word, style).w, style.size}))
+            s.canvas.text({box->x, box->bottom() - 0.2 * style.size}, word, style);
     }
     s.canvas.clip(s.at.box, [&] {  // the line may extend beyond the extent of the camera
         s.canvas.polyline(line);

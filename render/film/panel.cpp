@@ -65,6 +65,7 @@ std::vector<PanelSpec> standard(const FilmSetup& setup) {
         return (kind == ChannelKind::tip_deflection && !column(setup.chart, s.channels.front())) ||
                (kind == ChannelKind::contact_force && !force);
     });
+    if (setup.view.shot.zoom > 1 && setup.others.empty()) specs.insert(specs.begin(), {.kind = PanelKind::overview});
     return specs;
 }
 

@@ -1,5 +1,5 @@
-// The title, and the line of parameters below it: whole items, the most important first. Letters have two sizes; where
-// the smaller one has no room, a title ends with an ellipsis, and the last parameters are left out.
+// The title, which ends with an ellipsis where it has no room in two lines; and the parameters below it: whole items,
+// the most important first, in as many lines as their box has. The last ones without room are left out.
 #pragma once
 
 #include <string>
@@ -27,8 +27,8 @@ ParameterLine parameter_line(const Canvas& canvas, const Layout& places, const s
 
 // Style of the title at full size.
 TextStyle title_style(const Letters& letters, Color color = {});
-// On one line in two sizes, else on two in that of headings, of which the first ends between words.
-std::vector<FittedText> fitted_title(const Canvas& canvas, const std::string& title, const Box& box,
-                                     const Letters& letters);
+// On one line in two sizes, else on two in the smallest size, of which the first ends between words.
+std::vector<FittedText> fitted_lines(const Canvas& canvas, const std::string& text, TextStyle style, double smaller,
+                                     double smallest, double width);
 
 }  // namespace beamcam::render

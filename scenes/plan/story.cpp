@@ -124,12 +124,13 @@ std::string energy_at_apex(double touch, double apex, const sim::Problem& proble
     double used = 0, told = 0;  // the rounded steps of the sum add up to 100 %
     for (const Part& each : uses)
         if (const double percent = std::round(100 * (used += std::max(each.size, 0.0)) / all) - told; percent > 0)
-            told += percent, to += (to.empty() ? "" : ", ") + phrase(lang, each.name, fmt::format("{:.0f} %", percent));
+            told += percent,
+                to += (to.empty() ? "" : ", ") + phrase(lang, each.name, fmt::format("{:.0f}\u00A0%", percent));
     return phrase(lang, "energy {}", from) + ": " + to;
 }
 
 // The mechanism from near, the whole of it, the contact in micrometres, and the force of the collision.
-LayoutNode impact_layout(bool has_force, const Size& size) {
+LayoutNode impact_layout(bool has_force, const Size& size, double text_scale) {
     using enum LayoutNode::Kind;
     const LayoutNode near = leaf({.kind = PanelKind::mechanism}, 2.6), overview = leaf({.kind = PanelKind::overview});
     if (!has_force) return group(columns, {near, overview});
@@ -137,9 +138,9 @@ LayoutNode impact_layout(bool has_force, const Size& size) {
                      force = leaf({.kind = PanelKind::strip,
                                    .channels = {{ChannelKind::contact_force, 0}},
                                    .by_collision = true});
-    constexpr int kSmall = 540;  // height of a picture without room for four panels [px]
-    if (size.width < size.height) return group(rows, {near, contact, force});
-    if (size.height < kSmall) return group(columns, {leaf({.kind = PanelKind::mechanism}, 1.55), force});
+    const bool small = size.height < 540 || text_scale > 1.2;  // without room for four panels
+    if (size.width < 1.4 * size.height) return group(rows, {near, contact, force});
+    if (small) return group(columns, {leaf({.kind = PanelKind::mechanism}, 1.55), force});
     return group(rows, {group(columns, {near, group(rows, {overview, contact})}, 1.9), force});
 }
 
@@ -197,7 +198,7 @@ PictureOutput told_impact(PictureOutput film, const Scene& scene, const sim::Res
     film.view.keyframes = {
         {.at = at_time(touch), .zoom = kNear, .follow = render::Anchor{render::Anchor::Kind::contact}, .over = kMove},
         {.at = at_time(liftoff + 0.01 * (*span.to - liftoff)), .zoom = 1, .follow = render::Anchor{}, .over = kMove}};
-    if (!film.layout) film.layout = impact_layout(c.force_peak.has_value(), film.size);
+    if (!film.layout) film.layout = impact_layout(c.force_peak.has_value(), film.size, film.view.show.size);
     return film;
 }
 

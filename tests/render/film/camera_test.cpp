@@ -84,11 +84,14 @@ FilmSetup film_of(Style style) {
     return setup;
 }
 
-// Drawing does not extend beyond the mechanism's panel.
+// Drawing does not extend beyond the mechanism's panel. A near camera has an overview in the automatic layout.
 void keeps_to_its_panel(Style style) {
-    FilmSetup near = film_of(style);
-    near.view.shot = {.zoom = 6, .follow = {Anchor::Kind::contact, {}}};
-    Film whole(film_of(style)), film(near);
+    FilmSetup near = film_of(style), nearer = near;
+    near.view.shot = {.zoom = 2, .follow = {Anchor::Kind::contact, {}}};
+    nearer.view.shot = {.zoom = 6, .follow = {Anchor::Kind::contact, {}}};
+    Film whole(near), film(nearer);
+    EXPECT_FALSE(Film(film_of(style)).geometry(12).layout.first(PanelKind::overview));
+    EXPECT_TRUE(film.geometry(12).layout.first(PanelKind::overview));
     const Box box = film.geometry(12).layout.first(PanelKind::mechanism)->box;
     const Image a = drawn(whole, 12), b = drawn(film, 12);
     const long inside = differing_pixels(a, b, box);

@@ -37,10 +37,12 @@ TEST(CaptionBand, ShowsOneTextAtATimeBelowThePanels) {
 }
 
 // 22 px in a picture of 720 lines.
-TEST(CaptionBand, HasLargeLettersThenSmallOnesThenAnEllipsis) {
+TEST(CaptionBand, HasLargeLettersThenSmallOnesThenTwoLinesThenAnEllipsis) {
     FilmSetup setup = charts_only();
     const std::string words = "words that are shown in the band below the panels of a film ";
-    for (const auto& [text, cut] : {std::pair{words, false}, {words + words, false}, {words + words + words, true}}) {
+    const std::string three = words + words + words;
+    for (const auto& [text, cut] :
+         {std::pair{words, false}, {words + words, false}, {three, false}, {three + three, true}}) {
         setup.callouts = {{0, 40, text}};
         Film film(setup);
         EXPECT_EQ(film.cut_texts(), cut ? std::vector<std::string>{"captions"} : std::vector<std::string>{}) << text;

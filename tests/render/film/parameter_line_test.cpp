@@ -44,23 +44,18 @@ TEST(ParameterLine, RatherLeavesOutThanWritesTooSmall) {
     EXPECT_TRUE(omits);
 }
 
-TEST(ParameterLine, IsSmallerBeforeAnythingIsLeftOut) {
-    double size = 24;
-    std::size_t shown = kPieces.size();
-    bool smaller = false;
-    for (double width = 1400; width > 20; width -= 10) {
-        const ParameterLine line = line_in(width);
-        EXPECT_LE(line.pieces.size(), shown) << width;
-        if (line.pieces.size() == kPieces.size()) {
-            EXPECT_LE(line.size, size);
-            smaller = smaller || line.size < 24;
-            size = line.size;
-        }
+TEST(ParameterLine, FillsTheLinesOfItsBoxBeforeAnythingIsLeftOut) {
+    const auto shown = [](double width, double height) {
+        Measuring with;
+        Layout places;
+        places.parameters = Box{0, 54, width, height};
+        const ParameterLine line = parameter_line(with.canvas, places, kPieces);
         for (std::size_t i = 0; i < line.pieces.size(); ++i) EXPECT_EQ(line.pieces[i].markup, kPieces[i]);
-        shown = line.pieces.size();
-    }
-    EXPECT_TRUE(smaller);
-    EXPECT_EQ(shown, 0U);
+        return line.pieces.size();
+    };
+    EXPECT_LT(shown(700, 36), kPieces.size());
+    EXPECT_EQ(shown(700, 72), kPieces.size());
+    EXPECT_EQ(shown(20, 72), 0U);
 }
 
 TEST(ParameterLine, ATitleHasTwoSizesThenTwoLinesThenAnEllipsis) {
@@ -69,7 +64,7 @@ TEST(ParameterLine, ATitleHasTwoSizesThenTwoLinesThenAnEllipsis) {
     const Canvas canvas(image, fonts);
     const double natural = canvas.measure("A beam falls", title_style({})).w;
     const auto fitted = [&](const std::string& title, double width) {
-        const std::vector<FittedText> lines = fitted_title(canvas, title, {0, 0, width, 54}, {});
+        const std::vector<FittedText> lines = fitted_lines(canvas, title, title_style({}), 35, 30, width);
         for (const FittedText& line : lines)
             EXPECT_LE(canvas.measure(line.markup, {.size = line.size, .weight = Weight::semibold}).w, width) << title;
         return lines;

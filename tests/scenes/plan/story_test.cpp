@@ -69,7 +69,7 @@ TEST(Story, ImpactTellsTheEventsOfTheFirstCollision) {
 
 // Newton's impact law leaves e² = 25 % of the kinetic energy, which becomes height.
 TEST(Story, ImpactTellsWhatBecameOfTheEnergy) {
-    EXPECT_THAT(texts(film_of(kRigid, "impact")).back(), HasSubstr("at the touch: 25 % rebound, 75 % lost"));
+    EXPECT_THAT(texts(film_of(kRigid, "impact")).back(), HasSubstr("at the touch: 25\u00A0% rebound, 75\u00A0% lost"));
 }
 
 TEST(Story, ImpactTellsTheFirstCollisionAfterItsBeginning) {
