@@ -155,8 +155,8 @@ TEST(TableReader, SaysWhereACsvIsWrong) {
     EXPECT_THAT(problem_of("t,t\n1,2\n", "t"), ::testing::HasSubstr("occurs twice"));
     EXPECT_THAT(problem_of("t\tx\n1\t2.5\n2\t3,5\n", "x"), ::testing::HasSubstr(":3:3: \"3,5\" has another decimal"));
     EXPECT_THAT(problem_of("t\tx\n1.5\t2\n2.5\t3,567\n", "x"), ::testing::HasSubstr("a decimal comma, but other"));
-    EXPECT_NE(error("t,x\n1,2\n3\n").find("a.csv:3:1: 1 cells"), std::string::npos);
-    EXPECT_NE(error("t,x\n1,2\n3,4,5\n").find("a.csv:3:1: 3 cells"), std::string::npos);
+    EXPECT_NE(error("t,x\n1,2\n3\n").find("a.csv:3:1: the number of cells is 1 here"), std::string::npos);
+    EXPECT_NE(error("t,x\n1,2\n3,4,5\n").find("a.csv:3:1: the number of cells is 3 here"), std::string::npos);
     EXPECT_NE(error("").find("empty"), std::string::npos);
     EXPECT_NE(error("\n \n").find("empty"), std::string::npos);
     EXPECT_NE(error("1,2\n").find("a.csv:1:1: a number where the names"), std::string::npos);
