@@ -13,14 +13,15 @@
 namespace beamcam::sim {
 namespace {
 
-constexpr double kSureErrors = 3;   // of an exponent that surely differs from zero, over its standard error
-constexpr double kMaxDecay = 5;     // logarithm of the decay of a damped mode between two orthonormalizations
+constexpr double kSureErrors = 3;  // of an exponent that surely differs from zero, over its standard error
+// Orthonormalization multiplies errors by the inverse share of a tangent that remains. It is repeated so often that the
+// share is at least kLeastShare, but not more than 1/kShortest times an interval: a single impact may leave any share.
+constexpr double kLeastShare = 1e-4, kShortest = 1.0 / 64;
 constexpr double kHalvesApart = 4;  // standard errors between the halves of an average
 // Blocks that do not match the period of a periodic motion may differ by this share of the whole.
 constexpr double kBlockRounding = 1e-3;
-constexpr double kCompliant = 0.02;  // [s] between orthonormalizations with compliant contact
-constexpr double kNoRank = 1e-13;    // of a unit tangent: a smaller remainder is rounding
-constexpr double kGrazing = 0.01;    // of the root mean square approach speed: slower impacts are near grazing
+constexpr double kNoRank = 1e-13;  // of a unit tangent: a smaller remainder is rounding
+constexpr double kGrazing = 0.01;  // of the root mean square approach speed: slower impacts are near grazing
 // Tolerance of tangents over rtol: their errors enter an exponent once and are not amplified.
 constexpr double kTangentErrors = 100;
 constexpr std::size_t kHistory = 400;  // approximate number of points of the convergence history
@@ -34,27 +35,16 @@ double standard_error(const Eigen::ArrayXd& blocks, double mean) {
     return std::sqrt((blocks - mean).square().sum() / (n * (n - 1)));
 }
 
-// The longest interval between two orthonormalizations: a turn of the cam, a second, or less with strong damping.
-double longest_interval(const Problem& problem) {
-    // Compliant contact may damp strongly while it lasts.
-    const double own = problem.cam && problem.contact.model == ContactModel::compliant ? kCompliant : 1;
-    const double interval = std::min(own, cam_period(problem));
-    System system(problem);
-    const Eigen::MatrixXd* damping = system.model().damping();
-    const Eigen::VectorXd inertia = system.model().linearize().mass.diagonal();
-    const double trace = damping ? damping->diagonal().cwiseQuotient(inertia.tail(damping->rows())).sum() : 0;
-    return trace > 0 ? std::min(interval, kMaxDecay / trace) : interval;
-}
-
 // Gram–Schmidt orthonormalization, repeated once against rounding. Returns the remaining length of each column. A
 // column annihilated by sustained contact has length zero and stays zero.
-Eigen::VectorXd orthonormalize(Eigen::MatrixXd& v, double lost = 0) {
+Eigen::VectorXd orthonormalize(Eigen::MatrixXd& v) {
     Eigen::VectorXd lengths = Eigen::VectorXd::Zero(v.cols());
     for (Eigen::Index i = 0; i < v.cols(); ++i) {
         const auto before = v.leftCols(i);
+        const double rounding = kNoRank * v.col(i).norm();
         for (int repeat = 0; repeat < 2; ++repeat) v.col(i) -= before * (before.transpose() * v.col(i)).eval();
         const double length = v.col(i).norm();
-        if (length > lost) lengths[i] = length;
+        if (length > rounding) lengths[i] = length;
         v.col(i) *= lengths[i] > 0 ? 1 / length : 0;
     }
     return lengths;
@@ -70,21 +60,25 @@ class Stretching {
         per_block_ = static_cast<long>(pieces(duration / blocks));
         step_ = duration / static_cast<double>(per_block_ * blocks);
         settling_ = transient > 0 ? static_cast<long>(pieces(transient)) : 0;
+        reach_ = kShortest * step_;
         block_ = Eigen::MatrixXd::Zero(first.cols(), blocks);
         thinning_ = std::max<long>(1, per_block_ * blocks / static_cast<long>(kHistory));
     }
-    double first_pause() const { return instant(1); }
+    double first_pause() const { return std::min(instant(1), reach_); }
 
     double at(double t, Tangents& tangents) {
         Eigen::MatrixXd v = tangents.tangents(true);
-        const Eigen::VectorXd left = orthonormalize(v, tangents.holds() > 0 ? kNoRank : 0);
+        const Eigen::VectorXd length = v.colwise().norm();
+        const Eigen::VectorXd left = orthonormalize(v);
+        const bool lost = (left.array() > 0 && left.array() < kLeastShare * length.array()).any();
+        reach_ = lost ? std::max(0.5 * reach_, kShortest * step_) : std::min(2 * reach_, step_);
         if (done_ >= settling_) sum_.array() += left.array().log();
         if (t >= instant(done_ + 1)) {
             advance();
             if (done_ == settling_) replace_annihilated(v, left, tangents);
         }
         tangents.set_canonical(v);
-        return instant(done_ + 1);
+        return std::min(instant(done_ + 1), t + reach_);
     }
 
     // The last instant may equal the end up to rounding.
@@ -145,13 +139,14 @@ class Stretching {
         tangents.set_canonical(v);
         tangents.keep_on_cam();
         v = tangents.tangents(true);
-        orthonormalize(v, kNoRank);
+        orthonormalize(v);
     }
 
     Eigen::MatrixXd first_;
     Eigen::VectorXd sum_, block_start_;
     Eigen::MatrixXd block_;
     double transient_, step_;
+    double reach_;  // of the next orthonormalization [s]
     long per_block_, settling_, thinning_, done_ = 0;
     std::vector<double> time_;
     std::vector<Eigen::VectorXd> history_;
@@ -231,7 +226,7 @@ Exponents lyapunov_exponents(const Problem& problem, const ExponentsRequest& req
     Tangents tangents(run.system(), end, kTangentErrors * problem.solver.rtol,
                       all_tangents(problem, run.system().coordinates(), request.count), progress);
     Stretching stretching(tangents.tangents(), request.blocks, request.transient, request.duration,
-                          longest_interval(problem));
+                          std::min(1.0, cam_period(problem)));
     tangents.pause_at(stretching.first_pause(), [&](double t) { return stretching.at(t, tangents); });
     run.add(tangents);
     run.integrate();
@@ -246,7 +241,7 @@ Exponents lyapunov_exponents(const Problem& problem, const ExponentsRequest& req
             "the two halves of the average differ by more than their errors: the motion had not settled; use a longer "
             "transient");
     if (!e.lambda.empty() && std::isinf(e.lambda.back()))
-        e.warnings.push_back("in sustained contact neighbouring motions merge: the corresponding exponents are −∞");
+        e.warnings.push_back("in lasting contact neighbouring motions merge: the corresponding exponents are −∞");
     return e;
 }
 

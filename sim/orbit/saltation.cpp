@@ -126,7 +126,7 @@ void Saltation::begin_touch(const Instant& at, Eigen::MatrixXd& tangents) {
     near_ = probe_.contact(at.t, at.before);
     record_touch(at);
     const double floor = probe_.problem().contact.approach_floor.value;
-    const bool keeps = -near_.gap_rate > floor && at.is.approach > 0 &&
+    const bool keeps = -near_.gap_rate > floor && probe_.normal_law().damping > 0 &&
                        std::fabs(at.is.approach + near_.gap_rate) < kSameSpeed * at.is.approach;
     const Eigen::Index bristle = variation_.bristle(), approach = variation_.approach();
     if (keeps) {

@@ -9,7 +9,7 @@ namespace {
 // Of the scale on which the equations bend: errors of differences are about 1e-10 of it, half of them rounding.
 constexpr double kStep = 4e-6;
 constexpr double kTimeStep = 2e-5;  // longer, because the cam's angle grows without bound
-// The equations are quadratic in the rates, but for the friction of sustained contact: of the slip speed.
+// The equations are quadratic in the rates, but for the friction of sustained contact: of the slip or the slip speed.
 constexpr double kRateStep = 1e-3, kSlipStep = 1e-4;
 constexpr double kRelativeStep = 1e-5;   // of impulses by speeds and compliance
 constexpr double kSlowestMotion = 1e-3;  // [1/s] without cam speed and gravity
@@ -34,16 +34,9 @@ double typical_rate(const Problem& problem) {
 Variation::Variation(const System& system) : system_(system), n_(system.coordinates()), step_(2 * n_) {
     const Problem& problem = system_.problem();
     const Eigen::VectorXd inertia = system_.model().linearize().mass.diagonal();
-    const double rate = typical_rate(problem);
-    double rate_step = kRateStep * rate;
-    if (!system_.friction().none())
-        rate_step = std::min(rate_step, kSlipStep * system_.friction().slip_speed / problem.beam.length);
-    for (int i = 0; i < n_; ++i) {
-        const double size = std::sqrt(inertia[0] / inertia[i]);  // of the same energy as a radian of the hub
-        step_[i] = kStep * size;
-        step_[n_ + i] = rate_step * size;
-    }
-    time_step_ = kTimeStep / rate;
+    // Of the same energy as a radian of the hub.
+    for (int i = 0; i < n_; ++i) step_[i] = kStep * std::sqrt(inertia[0] / inertia[i]);
+    time_step_ = kTimeStep / typical_rate(problem);
 }
 
 void Variation::set(double t, const double* y, const Phase& phase) {
@@ -51,6 +44,13 @@ void Variation::set(double t, const double* y, const Phase& phase) {
     y_ = Eigen::Map<const Eigen::VectorXd>(y, system_.size);
     system_.set_phase(phase);
     if (phase.touching) at_ = system_.contact(t, y);
+    const Problem& problem = system_.problem();
+    double rate_step = kRateStep * typical_rate(problem);
+    if (phase.held && !system_.friction().none()) {
+        const double slip = std::max(system_.friction().slip_speed, std::fabs(at_.slip));
+        rate_step = std::min(rate_step, kSlipStep * slip / problem.beam.length);
+    }
+    step_.tail(n_) = step_.head(n_) * (rate_step / kStep);
 }
 
 // In sustained contact ξ̈ jumps where the contact passes an end of the beam: there the differences are on one side.

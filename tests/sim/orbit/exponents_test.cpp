@@ -134,6 +134,38 @@ TEST(Exponents, SumIsThatOfImpactsAndDamping) {
     }
 }
 
+// The damping of a lasting contact is faster than that of the motion by orders of magnitude: θ̈ falls by
+// N D ℓ²/(J δ̇₋) per θ̇, where Nℓ is the moment of the weight.
+TEST(Exponents, SumOfABeamAtRestIsTheDampingOfItsContact) {
+    Problem p;
+    p.beam.model = ModelKind::rigid;
+    p.cam->speed = 0;
+    p.initial.shape = InitialShape::resting;
+    p.contact.approach_floor.value = 1e-4;
+    set_tolerance(p, 1e-12);
+    System system(p);
+    const InitialState start = initial_state(p);
+    system.set_phase(start.phase);
+    const ContactState c = system.contact(0, start.y.data());
+    const double lever = c.x, inertia = system.model().linearize().mass(0, 0);
+    const double rate = c.force * system.normal_law().damping / start.phase.approach * lever * lever / inertia;
+    ASSERT_GT(rate, 1e4);
+    EXPECT_NEAR(sum(lyapunov_exponents(p, {0, 0.01, 0.05, 5})), -rate, 1e-4 * rate);
+}
+
+// The approach speed of a touch, which undamped contact does not need, takes no part.
+TEST(Exponents, SumOfConservativeContactVanishesDuringATouch) {
+    Problem p;
+    p.cam->speed = 12;
+    p.contact.damping = DampingLaw::none;
+    p.contact.stiffness = 1e6;
+    p.initial.angle = 0.6;
+    set_tolerance(p, 1e-12);
+    const Exponents e = lyapunov_exponents(p, {0, 0, 0.2, 2});  // the touch lasts from 0.191 s to 0.213 s
+    EXPECT_EQ(e.impacts, 1);
+    EXPECT_NEAR(sum(e), 0, 1e-8);
+}
+
 TEST(Exponents, ChaosHasAPositiveExponentThatALongerRunConfirms) {
     SKIP_UNDER_SANITIZERS();
     const Problem p = PressedBeam().on_orbit(54);

@@ -116,6 +116,9 @@ std::vector<MapCase> map_cases() {
     rests.contact.restitution = 0.6;
     rests.hub.radius = 0.05;
     all.back().tolerance = 1e-4;
+    all.push_back(all.back());
+    all.back().name = "RestsWithASmallSlipSpeed";
+    all.back().problem.contact.friction = CoulombFriction{0.1, 1e-7};
     return all;
 }
 
