@@ -85,11 +85,11 @@ with tempfile.TemporaryDirectory() as folder:
     subprocess.run([sys.argv[1], "render", "s.json", "-q", "--force", "-o", "s.html", "--set", "hub.radius=0.3"], cwd=folder, check=True)
     browser(folder, 0, f"--screenshot={folder}/page.png")
     with open(f"{folder}/s.html") as file:
-        named = dict(re.findall(r'"(steel|ink)":"#(\w{6})"', file.read()))
+        named = dict(re.findall(r'"(hub|bracket)":"#(\w{6})"', file.read()))
     pixels = pixels_of(f"{folder}/page.png")
-    steel, ink = ([divmod(i, WIDTH) for i, pixel in enumerate(pixels) if pixel == bytes.fromhex(named[name])] for name in ("steel", "ink"))
-    (top, _), (bottom, _), left, right = min(steel), max(steel), min(x for _, x in steel), max(x for _, x in steel)
-    reach = (max(y for y, x in ink if left <= x <= right) - (top + bottom) / 2) / ((bottom - top) / 2)
+    hub, bracket = ([divmod(i, WIDTH) for i, pixel in enumerate(pixels) if pixel == bytes.fromhex(named[name])] for name in ("hub", "bracket"))
+    (top, _), (bottom, _), left, right = min(hub), max(hub), min(x for _, x in hub), max(x for _, x in hub)
+    reach = (max(y for y, x in bracket if left <= x <= right) - (top + bottom) / 2) / ((bottom - top) / 2)
     print(reach)
     if not 1.02 < reach < 1.25:
         sys.exit(f"the support of a large hub reaches {reach} times the hub's radius below its axis")
