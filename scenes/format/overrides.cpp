@@ -79,22 +79,23 @@ void set_value(Node& root, std::string_view path, Node value, std::vector<Messag
     const std::vector<std::string> keys = split(path);
     if (std::ranges::find(keys, "") != keys.end()) return error("the path contains an empty key; write key.path=value");
 
-    Node changed = root, *node = &changed;
-    std::string walked;
-    bool added = false;
+    Node *node = &root, *extended = nullptr;  // extended: the object of the scene that got `added`
+    std::string walked, added;
     for (const std::string& key : keys) {
         const std::string here = walked.empty() ? "the scene" : walked;
         // An object that an earlier key added: the entries of an array that the scene lacks are unknown.
-        if (added && key.find_first_not_of("0123456789") == std::string::npos)
+        if (extended && key.find_first_not_of("0123456789") == std::string::npos) {
+            remove(*extended, added);
             return error(fmt::format("the scene does not contain {}, which entry {} would belong to; set {} itself",
                                      here, in_quotes(key), here));
+        }
         walked += (walked.empty() ? "" : ".") + key;
         Node* inner = child(*node, key);
         if (!inner && node->kind == Node::Kind::object) {
             Node empty = object_node();
             empty.place = place;
             inner = &node->members.add({key, place, std::move(empty)}).value;
-            added = true;
+            if (!extended) extended = node, added = key;
         }
         if (!inner)
             return error(node->kind == Node::Kind::array
@@ -105,7 +106,6 @@ void set_value(Node& root, std::string_view path, Node value, std::vector<Messag
         node = inner;
     }
     *node = std::move(value);
-    root = std::move(changed);
 }
 
 }  // namespace beamcam::scenes
