@@ -6,7 +6,8 @@
 
 namespace beamcam::sim {
 
-// By Gauss and Jordan's elimination with pivots by columns.
+// By Gauss and Jordan's elimination with pivots by columns. With Eigen's LU a run with contact takes 13 to 17 % more
+// instructions.
 bool solve_dense(NodalMatrix a, std::span<Lanes> b) {
     for (int k = 0; k < kNodes; ++k) {
         Lanes& column = a[static_cast<std::size_t>(k)];
