@@ -12,6 +12,7 @@
 #include "output/data/table_reader.hpp"
 #include "output/files/numbers.hpp"
 #include "output/json/source.hpp"
+#include "output/json/tree.hpp"
 #include "sim/problem/keys.hpp"
 #include "sim/sweep/attractor.hpp"
 
@@ -55,12 +56,6 @@ std::string plain_text(std::string_view bytes, const std::string& file) {
 }
 
 // ---- rows and cells ----------------------------------------------------------------------------
-
-std::string_view trimmed(std::string_view text) {
-    while (!text.empty() && std::string_view(" \t\r").find(text.front()) != text.npos) text.remove_prefix(1);
-    while (!text.empty() && std::string_view(" \t\r").find(text.back()) != text.npos) text.remove_suffix(1);
-    return text;
-}
 
 bool is_quoted(std::string_view cell) { return cell.size() > 1 && cell.front() == '"' && cell.back() == '"'; }
 

@@ -124,6 +124,12 @@ std::vector<std::string> split(std::string_view text, char separator) {
     return parts;
 }
 
+std::string_view trimmed(std::string_view text) {
+    while (!text.empty() && std::string_view(" \t\r").find(text.front()) != text.npos) text.remove_prefix(1);
+    while (!text.empty() && std::string_view(" \t\r").find(text.back()) != text.npos) text.remove_suffix(1);
+    return text;
+}
+
 void replace_all(std::string& text, std::string_view from, std::string_view to) {
     for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
         text.replace(at, from.size(), to);

@@ -102,6 +102,7 @@ const char* name(Node::Kind kind);  // "a number", "an object", …
 
 // "cam.centre.0" as {"cam", "centre", "0"}.
 std::vector<std::string> split(std::string_view text, char separator = '.');
+std::string_view trimmed(std::string_view text);  // without blanks, tabs and carriage returns at its ends
 void replace_all(std::string& text, std::string_view from, std::string_view to);
 // The member or, by its index from 0, the item of this name; null if there is none.
 const Node* child(const Node& node, std::string_view name);

@@ -62,7 +62,7 @@ CLI::Option* add_list(CLI::App& app, const std::string& names, std::vector<std::
     const auto store = [&values, names](const std::vector<std::string>& words) {
         for (const std::string& word : words)
             for (std::string& value : split(word, ',')) {
-                value = CLI::detail::trim(value);
+                value = std::string(trimmed(value));
                 if (value.empty())
                     throw UsageError(fmt::format("{} {}: a value is empty; remove a \",\"", names, word));
                 values.push_back(std::move(value));
