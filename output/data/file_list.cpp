@@ -228,6 +228,14 @@ std::string FileList::without_outdated_lines(const fs::path& directory) {
     return text;
 }
 
+// Whether a run writes a file there: its line may be in the list before the file has its name.
+static bool is_written_to(const fs::path& directory) {
+    std::error_code failed;
+    for (fs::directory_iterator at(directory, failed), end; !failed && at != end; at.increment(failed))
+        if (is_temporary_name(at->path().filename().string())) return true;
+    return false;
+}
+
 void FileList::recover(const fs::path& directory) {
     const fs::path place = directory_of(directory / kFileName), list = place / kFileName;
     remove_abandoned_parts(place);
@@ -236,7 +244,7 @@ void FileList::recover(const fs::path& directory) {
     };
     if (!is_outdated()) return;
     const Descriptor lock = locked_list(list);
-    if (lock && is_outdated()) write_file(list, without_outdated_lines(place));
+    if (lock && !is_written_to(place) && is_outdated()) write_file(list, without_outdated_lines(place));
 }
 
 }  // namespace beamcam::output

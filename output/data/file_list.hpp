@@ -8,8 +8,9 @@
 //
 // The line is written before the file appears under its name. So the next run can tell beamcam's files from the user's
 // even if a run is killed at any instant. The list is locked while a line is added, so that several processes may use
-// one directory, and is rewritten when most of its lines are outdated. Lines that are no records are skipped. In a
-// folder where only its owner may replace the list, other users' files are not recorded.
+// one directory, and is rewritten when most of its lines are outdated and no file is being written there. Lines that
+// are no records are skipped. In a folder where only its owner may replace the list, other users' files are not
+// recorded.
 #pragma once
 
 #include <filesystem>
