@@ -22,16 +22,16 @@ ClockLine::ClockLine(const FilmContext& context) : context_(context) {
     const FilmSetup& setup = *context.setup;
     const bool mechanism = context.places.first(PanelKind::mechanism) != nullptr;
     if (!context.places.clock) return;
-    if (setup.view.show.legend && context.scales.exaggeration > 1 && mechanism)
+    if (setup.view.labelled() && context.scales.exaggeration > 1 && mechanism)
         pills_.push_back({Pill::Kind::exaggeration,
                           context.look.translate("deflection ×{}", power_text(context.scales.exaggeration)),
                           context.look.palette.motion});
-    if (setup.view.show.legend && !setup.speeds.empty())
+    if (setup.view.labelled() && !setup.speeds.empty())
         pills_.push_back(
             {Pill::Kind::speed, widest_speed_text(setup.speeds, context.look.lang), context.look.palette.contact});
     const bool in_chart =
         std::ranges::any_of(context.places.panels, [](const auto& slot) { return shows_peaks(slot.spec); });
-    for (int m = 0; m < context.members() && mechanism && !in_chart && setup.view.show.labels; ++m)
+    for (int m = 0; m < context.members() && mechanism && !in_chart && setup.view.labelled(); ++m)
         if (!context.motion(m).impacts.empty() && context.scales.largest_force > 0 &&
             context.motion(m).problem.contact.model == sim::ContactModel::compliant) {
             if (!peaks_) peaks_.emplace(context);
@@ -59,9 +59,8 @@ bool ClockLine::states_exaggeration() const {
 double ClockLine::measure(const Canvas& canvas) {
     const double u = context_.look.unit, last = context_.clock.at(context_.frames() - 1);
     clock_width_ = canvas.measure(clock_text(context_.clock.format, last), clock_style()).w;
-    double right = context_.places.clock->x;
-    if (context_.setup->view.show.clock) right += clock_width_;
-    first_ = right + (context_.setup->view.show.clock ? kAfterClock * u : 0);
+    double right = context_.places.clock->x + clock_width_;
+    first_ = right + kAfterClock * u;
     for (double x = first_; Pill & pill : pills_) {
         pill.width = canvas.measure(pill.widest, pill_style(pill)).w + kPadding * letters_;
         right = x + pill.width;
@@ -101,7 +100,7 @@ void ClockLine::draw(Canvas& canvas, int frame) const {
     if (!context_.places.clock) return;
     const Box& b = *context_.places.clock;
     const double u = context_.look.unit;
-    if (context_.setup->view.show.clock && clock_width_ <= b.w)
+    if (clock_width_ <= b.w)
         canvas.text({b.x, b.y + 24 * u + 0.35 * size_}, clock_text(context_.clock.format, context_.clock.at(frame)),
                     clock_style());
     double x = first_;

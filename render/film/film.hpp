@@ -36,6 +36,10 @@ namespace beamcam::render {
 // lit: solid bodies, from the front; flat: a drawing; solid: the same bodies in perspective.
 enum class Style { lit, flat, solid };
 
+// Parts beside the panels. all: title, parameters, warning and labels, which are clock, colour scales, the letters of
+// the mechanism and peaks; talk: title and labels; paper: labels; clean: none.
+enum class Show { all, talk, paper, clean };
+
 struct View {
     Style style = Style::lit;
     Theme theme = Theme::light;
@@ -43,8 +47,18 @@ struct View {
     Shot shot = {};                           // at the start
     bool transparent = false;                 // without paper: the pictures have an alpha channel
     std::optional<std::uint32_t> paper = {};  // 0xrrggbb in place of the theme's
-    Shown show = {};
-    Lang lang = Lang::en;  // language of the picture's own text
+    Show show = Show::all;
+    double text_scale = 1;  // of letters, lines and marks
+    Lang lang = Lang::en;   // language of the picture's own text
+
+    bool labelled() const { return show != Show::clean; }
+    Shown shown() const {
+        return {.title = show == Show::all || show == Show::talk,
+                .parameters = show == Show::all,
+                .labels = labelled(),
+                .warning = show == Show::all,
+                .size = text_scale};
+    }
 };
 
 // One motion of one mechanism as a film shows it.
@@ -60,11 +74,7 @@ struct Motion {
     sim::Table trace;  // t, contact_x, contact_s, contact_force, finely sampled; rows with force > 0 are dots
     std::vector<sim::Impact> impacts;
     double end = std::numeric_limits<double>::infinity();  // later impacts are not among them [s]
-    std::vector<Range> unreliable;  // intervals in which θ is not reproducible; curves are paler there [s]
 
-    bool is_reliable(double t) const {
-        return std::ranges::none_of(unreliable, [t](const Range& r) { return t > r.low && t <= r.high; });
-    }
     std::size_t frames() const { return poses.size(); }
     double time(std::size_t frame) const { return poses[frame].t; }
     const sim::Pose& pose(std::size_t frame) const { return poses[frame]; }

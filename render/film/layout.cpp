@@ -46,8 +46,8 @@ PictureFrame picture_frame(int width, int height, const Shown& shown) {
 
     const bool has_title = shown.title && w >= 320 * u && h >= 300 * u,
                has_parameters = shown.parameters && w >= 560 * u && h >= 480 * u;
-    const bool has_clock = (shown.clock || shown.legend) && w >= 230 * u && h >= 190 * u;
-    const bool is_large = w >= (wide ? 1200 : 860) * u && h >= 640 * u, has_scales = shown.legend && is_large;
+    const bool has_clock = shown.labels && w >= 230 * u && h >= 190 * u;
+    const bool is_large = w >= (wide ? 1200 : 860) * u && h >= 640 * u, has_scales = shown.labels && is_large;
     const double scales = std::max(560 * u, 30 * out.letters.words);  // width of two
     if (has_title) {
         out.title = Box{margin, f.top, w - 2 * margin, 64 * u};

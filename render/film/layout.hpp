@@ -41,15 +41,13 @@ struct LayoutNode {
     std::vector<LayoutNode> children = {};
 };
 
-// Visible parts around the panels and within the mechanism. The panels take the space of hidden parts.
+// Visible parts around the panels. The panels take the space of hidden parts.
 struct Shown {
-    bool title = true, parameters = true, clock = true;
-    bool legend = true;     // colour scales, exaggeration, playback speed
-    bool warning = true;    // of a motion that leaves its model or is not reproducible, in the corner
-    bool labels = true;     // letters of angle, speed and force, peaks, scale bar
+    bool title = true, parameters = true;
+    bool labels = true;     // clock, colour scales, exaggeration, playback speed
+    bool warning = true;    // of a motion that leaves its model, in the corner
     bool captions = false;  // texts of events, in a band below the panels
     double size = 1;        // scale factor of letters, lines and marks
-    bool operator==(const Shown&) const = default;
 };
 
 // The three sizes of letters in a picture [px]: 34, 20 and 16 in one of 1280×720, with half as much again in a

@@ -33,7 +33,7 @@ struct MechanismView {
     bool has_scale_bar() const {
         return box.w >= 300 * unit && box.h >= 220 * unit && labelled() && context.setup->view.style != Style::solid;
     }
-    bool labelled() const { return !small && context.setup->view.show.labels; }
+    bool labelled() const { return !small && context.setup->view.labelled(); }
     MechanismLook look;
     double wide;  // width of the beam across the plane of motion, in the solid view [px]
 

@@ -156,7 +156,7 @@ void FilmContext::read_clock() {
 }
 
 void FilmContext::place_panels() {
-    Shown shown = setup->view.show;
+    Shown shown = setup->view.shown();
     shown.title = shown.title && !setup->title.empty();
     shown.captions = !setup->callouts.empty();
     shown.warning = shown.warning && !setup->warning.empty();

@@ -17,7 +17,6 @@ namespace {
 using sim::Channel;
 using sim::ChannelKind;
 
-constexpr double kPaleShare = 0.5;   // of a curve's colour where the motion is not reproducible
 constexpr double kRounding = 1e-15;  // of lengths, relative to the beam's: a few units in the last place
 constexpr double kDotShare = 0.45;   // of the colour of the past that a dot of the future has
 
@@ -127,10 +126,9 @@ Range add_places(const FilmContext& context, const Range& shown, ChartContent& c
         for (const TraceSample& s : context.samples[static_cast<std::size_t>(m)]) {
             if (s.t >= shown.low && s.t <= shown.high) places.add({&s.x, 1});
             if (s.t < c.time().low || s.t > c.time().high) continue;
-            Color color = context.members() > 1
-                              ? context.member_color(m)
-                              : force_color(p, std::sqrt(std::min(1.0, s.force / context.scales.force)));
-            if (!context.motion(m).is_reliable(s.t)) color = p.tint(color, kPaleShare);
+            const Color color = context.members() > 1
+                                    ? context.member_color(m)
+                                    : force_color(p, std::sqrt(std::min(1.0, s.force / context.scales.force)));
             c.panel.dots.push_back({s.t, s.x, color, p.tint(place_color(context, m), kDotShare)});
         }
     }
@@ -288,8 +286,6 @@ ChartContent strip_content(const FilmContext& context, const PanelSpec& spec) {
                 curve.label = symbol_of(spec.channels[i]);
             if (!is_force(first))
                 curve.dash = FilmContext::dash_of(context.members() > 1 ? static_cast<std::size_t>(m) : i);
-            curve.pale_within = context.motion(m).unreliable;
-            curve.pale = p.tint(color, kPaleShare);
             c.panel.series.push_back(std::move(curve));
         }
     }

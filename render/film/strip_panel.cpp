@@ -20,7 +20,7 @@ class StripPanel final : public ChartPanel {
   public:
     StripPanel(const FilmContext& context, const PanelSlot& slot)
         : ChartPanel(context, strip_content(context, slot.spec), slot.box), spec_(slot.spec) {
-        if (shows_peaks(spec_) && context.setup->view.show.labels) peaks_.emplace(context);
+        if (shows_peaks(spec_) && context.setup->view.labelled()) peaks_.emplace(context);
     }
 
   private:
@@ -65,7 +65,7 @@ class CollisionPanel final : public FilmPanel {
             now.span.high = std::max(now.span.high, end);
             now.shown = end - i.t_start > kLasting ? i.t_start + kShown : now.span.high;
         }
-        if (shows_peaks(spec_) && context.setup->view.show.labels) peaks_.emplace(context);
+        if (shows_peaks(spec_) && context.setup->view.labelled()) peaks_.emplace(context);
         content_ = strip_content(context, spec_);
         content_.panel.events.clear();
         content_.past_only = context.frames() > 1;  // the picture of a touch shows the force that follows
@@ -134,7 +134,6 @@ class CollisionPanel final : public FilmPanel {
         const double t0 = start(which);
         for (figure::Span& span : c.panel.spans) span.from -= t0, span.to -= t0;
         for (figure::Series curve : curves_) {
-            for (Range& pale : curve.pale_within) pale.low -= t0, pale.high -= t0;
             const std::vector<double> t = std::exchange(curve.x, {}), v = std::exchange(curve.y, {});
             const auto begin = std::ranges::lower_bound(t, t0 + time.low) - t.begin(),
                        end = std::ranges::upper_bound(t, t0 + time.high) - t.begin();

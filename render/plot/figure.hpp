@@ -30,11 +30,8 @@ struct Series {
     std::optional<Color> color = {};  // instead of the look's
     std::vector<double> value = {};   // colours the points by the panel's colour bar; same length as x
     std::vector<double> t = {};       // of a motion, if x is not the time: instants of the points [s], for the data
-    // Of films: the area below it is filled; colour in the future; intervals of x, ascending, in which the past has the
-    // colour `pale`.
-    bool filled = false;
-    Color faint = {}, pale = {};
-    std::vector<Range> pale_within = {};
+    bool filled = false;              // of films: the area below it
+    Color faint = {};                 // of films: in the future
     void add(double at_x, double at_y) { x.push_back(at_x), y.push_back(at_y); }
 };
 

@@ -78,22 +78,10 @@ void Plot::draw_bands(Painter& on, const Interval& part) const {
 }
 
 void Plot::draw_curve(Painter& on, const Series& s, const Interval& part) const {
-    Pen pen{{},
-            (part.past ? kPastLine : kFutureLine) * style_->unit,
-            dashes(s.dash, style_->unit),
-            s.dash.empty() ? Cap::round : Cap::butt};
-    const auto piece = [&](double from, double to, Color color) {
-        const Interval within{std::max(from, part.from), std::min(to, part.to), part.past};
-        if (!(within.from < within.to)) return;
-        pen.color = color;
-        on.curve(points(s.x, s.y, false, within), pen);
-    };
-    if (!part.past) return piece(part.from, part.to, s.faint);
-    // Pale pieces first: a piece begins at the row before its interval, which the strong pieces cover.
-    for (const Range& pale : s.pale_within) piece(pale.low, pale.high, s.pale);
-    double from = part.from;
-    for (const Range& pale : s.pale_within) piece(std::exchange(from, pale.high), pale.low, color_of(s));
-    piece(from, part.to, color_of(s));
+    if (!(part.from < part.to)) return;
+    on.curve(points(s.x, s.y, false, part),
+             {part.past ? color_of(s) : s.faint, (part.past ? kPastLine : kFutureLine) * style_->unit,
+              dashes(s.dash, style_->unit), s.dash.empty() ? Cap::round : Cap::butt});
 }
 
 void Plot::draw_dots_and_events(Painter& on, const Interval& part) const {

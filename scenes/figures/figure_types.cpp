@@ -14,17 +14,16 @@ namespace beamcam::scenes {
 
 // Each is in its file of this folder.
 extern const FigureType kSeries, kSchematic, kFreeFall, kDeflection, kDistance, kContactPlaces, kKymograph,
-    kSpectrogram, kStrobe, kSvaj, kTable, kImpactMaps, kImpactHistograms, kPeaks, kBifurcation, kBasins, kMap,
-    kPoincare, kImpactMap;
+    kSpectrogram, kStrobe, kSvaj, kTable, kImpactMaps, kPeaks, kBifurcation, kBasins, kMap, kPoincare, kImpactMap;
 
 namespace {
 
 // Made on first use: the types are initialized before.
 const std::vector<FigureType>& table() {
-    static const std::vector<FigureType> all{kSeries,        kSchematic,  kFreeFall,         kDeflection, kDistance,
-                                             kContactPlaces, kKymograph,  kSpectrogram,      kStrobe,     kSvaj,
-                                             kTable,         kImpactMaps, kImpactHistograms, kPeaks,      kBifurcation,
-                                             kBasins,        kMap,        kPoincare,         kImpactMap};
+    static const std::vector<FigureType> all{kSeries,        kSchematic,  kFreeFall,    kDeflection,  kDistance,
+                                             kContactPlaces, kKymograph,  kSpectrogram, kStrobe,      kSvaj,
+                                             kTable,         kImpactMaps, kPeaks,       kBifurcation, kBasins,
+                                             kMap,           kPoincare,   kImpactMap};
     return all;
 }
 

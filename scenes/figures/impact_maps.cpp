@@ -1,4 +1,4 @@
-// Impacts as maps and as histograms: restitution, successive speeds, and the phase of the cam at impact.
+// Impacts as maps: restitution, successive speeds, and the phase of the cam at impact.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +7,6 @@
 
 #include "scenes/figures/axis_labels.hpp"
 #include "scenes/figures/figure_types.hpp"
-#include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -91,55 +90,9 @@ FigureDrawing prepare_maps(const Scene& scene, const FigureOutput& how, MotionRe
     return figure_of_motion(motion, draw);
 }
 
-// Counts the values in intervals of a round width from 0 to `end`, which the last one includes.
-Panel histogram(std::string label, const std::vector<double>& values, double end, Lang lang) {
-    const double width = render::round_down_125(end / std::clamp(std::sqrt(double(values.size())), 6.0, 36.0));
-    const auto bins = static_cast<std::size_t>(std::ceil(end / width - 1e-9));
-    std::vector<double> counts(bins, 0);
-    for (const double v : values) ++counts[std::min(bins - 1, static_cast<std::size_t>(v / width))];
-    Series steps;
-    for (std::size_t k = 0; k < bins; ++k)
-        for (const std::size_t edge : {k, k + 1}) steps.add(width * static_cast<double>(edge), counts[k]);
-    return {.x = {.label = std::move(label), .tight = true},
-            .y = {.label = phrase(lang, "impacts"), .with_zero = true, .counts = true},
-            .series = {steps},
-            .bands = {{.x = steps.x, .low = std::vector<double>(steps.x.size(), 0), .high = steps.y}},
-            .legend = false};
-}
-
-FigureDrawing prepare_histograms(const Scene& scene, const FigureOutput& how, MotionRequests& requests) {
-    const double from = how.series.from, to = how.series.to.value_or(scene.end_time);
-    const std::size_t motion = requests.motion(scene.problem, to);
-    const auto draw = [=](const Subject& subject, const sim::Result& result) -> Figure {
-        const Lang lang = subject.lang;
-        std::vector<double> speeds, phases;
-        for (const sim::Impact& hit : strikes(subject.problem, result.impacts, from, to))
-            speeds.push_back(std::abs(hit.v_n_before)), phases.push_back(phase_of(hit));
-        constexpr std::size_t kFewest = 5;
-        if (speeds.size() < kFewest)
-            throw render::PictureError(fmt::format(
-                "figure impact-histograms: only {} from {:g} s to {:g} s, too few for a histogram; raise time.end, or "
-                "see impact-maps",
-                counted(speeds.size(), "impact"), from, to));
-        return {.title = fmt::format("Histograms of the approach speed and of the phase $φ$ of the cam at {} impacts",
-                                     speeds.size()),
-                .panels = lettered({histogram(axis_label(phrase(lang, "approach speed"), "m/s"), speeds,
-                                              *std::ranges::max_element(speeds), lang),
-                                    histogram(kPhaseLabel, phases, 1, lang)}),
-                .aspect = 1.2};
-    };
-    return figure_of_motion(motion, draw);
-}
-
 }  // namespace
 
 extern const FigureType kImpactMaps{
     .name = "impact-maps", .title = "Impacts", .refusal = needs_cam, .maker = prepare_maps, .keys = {"from", "to"}};
-extern const FigureType kImpactHistograms{
-    .name = "impact-histograms",
-    .title = "Histograms of the approach speed and of the phase of the cam at impacts",
-    .refusal = needs_cam,
-    .maker = prepare_histograms,
-    .keys = {"from", "to"}};
 
 }  // namespace beamcam::scenes

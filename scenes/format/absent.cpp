@@ -73,6 +73,7 @@ constexpr Absent kAbsent[] = {
     {WordKind::other, "type=model", "3-D models were withdrawn; a \"page\" plays the motion in a browser"},
     {WordKind::other, "type=shapes",
      "it was withdrawn; beamcam figure SCENE kymograph --data FILE.csv has the deflections"},
+    {WordKind::other, "figure=impact-histograms", "it was withdrawn; impact-maps draws the same impacts"},
     {WordKind::other, "type=sweep-film", "it was withdrawn; write a \"sweep\", a \"figure\" and \"video\" outputs"},
     {WordKind::other, "codec=hevc codec=av1 codec=apng",
      "it was withdrawn; write h264, or vp9 or prores for a transparent film"},

@@ -84,29 +84,4 @@ ValueFormat background_format(render::View& view) {
             read, write};
 }
 
-ValueFormat show_format(render::Shown& show) {
-    static const std::pair<std::string, render::Shown> kPresets[] = {
-        {"all", {}},
-        {"talk", {.parameters = false, .warning = false}},
-        {"paper", {.title = false, .parameters = false, .warning = false}},
-        {"clean", {false, false, false, false, false, false}}};
-    static const std::vector<std::string> kNames{"all", "talk", "paper", "clean"};
-    // Presets do not change the size of the text.
-    const auto sized = [](render::Shown preset, double size) {
-        preset.size = size;
-        return preset;
-    };
-    const auto read = [&show, sized](ObjectReader& r, const Node& node, const std::string& key) {
-        for (const auto& [name, preset] : kPresets)
-            if (word_in(node) == name) return void(show = sized(preset, show.size));
-        r.reject_value(node, key, " is not a preset{}", suggestion_or_list(node.text, kNames));
-    };
-    const auto write = [&show, sized]() -> Node {
-        for (const auto& [name, preset] : kPresets)
-            if (show == sized(preset, show.size)) return name;
-        return {};
-    };
-    return {"preset or object", one_line(object_node({{"enum", kNames}})), read, write};
-}
-
 }  // namespace beamcam::scenes

@@ -59,7 +59,6 @@ ValueFormat speed_format(Speed& speed);
 ValueFormat anchor_format(render::Anchor& anchor);
 ValueFormat anchor_format(std::optional<render::Anchor>& anchor);
 ValueFormat background_format(render::View& view);
-ValueFormat show_format(render::Shown& show);
 std::vector<std::string> channel_names(const std::vector<sim::Channel>& channels);
 // Appends the channels that an array names; each must be among `allowed`.
 void read_channels(ObjectReader& r, const Node& node, const std::string& key, const std::vector<sim::Channel>& allowed,

@@ -22,15 +22,7 @@ std::string beyond_model(const sim::Problem& problem, render::Lang lang) {
     return phrase(lang, "bends beyond {}", phrase(lang, sim::name(problem.beam.model)));
 }
 
-// Until when curves are paler where θ is not reproducible: they are those of strip charts.
-double paler_until(const PlannedPictures& p, const Scene& scene) {
-    const bool strips = std::ranges::any_of(panels_of(p, scene, p.end_time), [](const render::PanelSpec& panel) {
-        return panel.kind == render::PanelKind::strip;
-    });
-    return p.horizon && strips && !p.times.chart.empty() ? p.times.chart.back() : 0;
-}
-
-render::Motion motion_of(const MotionRequest& shown, sim::Result& result, double paler_until) {
+render::Motion motion_of(const MotionRequest& shown, sim::Result& result) {
     render::Motion motion;
     motion.problem = shown.problem;
     motion.label = shown.label;
@@ -41,23 +33,7 @@ render::Motion motion_of(const MotionRequest& shown, sim::Result& result, double
     if (shown.problem.cam) motion.trace = std::move(result.tables[kTraceTable]);
     motion.impacts = result.impacts;
     motion.end = result.end_time;
-    for (const UnreliableInterval& lost : unreliable_intervals(result, std::numeric_limits<double>::infinity()))
-        if (lost.from < paler_until) motion.unreliable.push_back({lost.from, lost.to});
     return motion;
-}
-
-// The intervals of a single motion; compared motions have different ones.
-std::string paler_note(const render::FilmSetup& setup, render::Lang lang) {
-    const auto is_paler = [](const render::Motion& motion) { return !motion.unreliable.empty(); };
-    if (std::ranges::any_of(setup.others, is_paler) || (is_paler(setup) && !setup.others.empty()))
-        return phrase(lang, "paler: $θ$ not reproducible");
-    std::string when;
-    for (const render::Range& lost : setup.unreliable) {
-        if (!when.empty()) when += ", ";
-        when += std::isinf(lost.high) ? phrase(lang, "from {} on", fmt::format("{:.3g} s", lost.low))
-                                      : fmt::format("{:.3g}–{:.3g} s", lost.low, lost.high);
-    }
-    return when.empty() ? when : phrase(lang, "paler: $θ$ not reproducible {}", when);
 }
 
 std::vector<render::FilmData> data_of(const Scene& scene) {
@@ -70,20 +46,17 @@ std::vector<render::FilmData> data_of(const Scene& scene) {
     return out;
 }
 
-void add_motions(const Plan& plan, const PlannedPictures& p, const Scene& scene, std::span<sim::Result* const> results,
+void add_motions(const Plan& plan, const PlannedPictures& p, std::span<sim::Result* const> results,
                  render::FilmSetup& setup) {
     for (std::size_t i = 0; i < p.motions.size(); ++i) {
         const MotionRequest& shown = plan.motions[p.motions[i]];
         if (results[i]->beyond_model) setup.warning = beyond_model(shown.problem, p.view.lang);
-        render::Motion motion = motion_of(shown, *results[i], paler_until(p, scene));
+        render::Motion motion = motion_of(shown, *results[i]);
         if (i == 0)
             static_cast<render::Motion&>(setup) = std::move(motion);
         else
             setup.others.push_back(std::move(motion));
     }
-    const std::string paler = paler_note(setup, p.view.lang);
-    if (!setup.warning.empty() && !paler.empty()) setup.warning += " · ";
-    setup.warning += paler;
 }
 
 }  // namespace
@@ -113,7 +86,7 @@ render::FilmSetup film_setup(const Plan& plan, const PlannedPictures& p, const S
     setup.callouts = p.times.callouts;
     setup.data = data_of(scene);
     setup.moves = p.times.moves;
-    add_motions(plan, p, scene, results, setup);
+    add_motions(plan, p, results, setup);
     return setup;
 }
 

@@ -56,16 +56,6 @@ static void visit(SceneVisitor& v, View& view) {
         "50 that suits the motion during the film, at any frame rate, or during the whole scene of a still.");
 }
 
-static void visit(SceneVisitor& v, render::Shown& show) {
-    v.boolean("title", show.title, "The scene's title.");
-    v.boolean("parameters", show.parameters, "The line of parameters below the title.");
-    v.boolean("clock", show.clock, "The clock.");
-    v.boolean("legend", show.legend, "Colour scales, and the factors of deflection and time.");
-    v.boolean("accuracy", show.warning,
-              "A warning in the corner where the beam bends beyond its model, or θ is not reproducible.");
-    v.boolean("labels", show.labels, "Letters and scale bar in the mechanism, peaks of forces beside the clock.");
-}
-
 void visit_theme(SceneVisitor& v, View& view) {
     using render::Theme;
     v.choice("theme", view.theme, {{Theme::light, "light"}, {Theme::dark, "dark"}, {Theme::print, "print"}},
@@ -73,20 +63,19 @@ void visit_theme(SceneVisitor& v, View& view) {
 }
 
 void visit_picture(SceneVisitor& v, Picture& picture) {
-    using render::Comparison;
+    using render::Comparison, render::Show;
     v.object("view", picture.view, "View of the mechanism.");
     visit_theme(v, picture.view);
     v.value(
         "background", background_format(picture.view),
         "paper: background of the theme; \"#rrggbb\": this colour; transparent: none, if the file format allows it.");
-    v.value(
-        "show", show_format(picture.view.show),
-        "The parts around the panels: all, a preset (talk: no parameters and accuracy; paper: only labels, legend and "
-        "clock; clean: none), or an object that removes parts. Without the legend the picture does not state the "
-        "factor of the deflection.",
-        SceneVisitor::keys_of(picture.view.show));
+    v.choice(
+        "show", picture.view.show,
+        {{Show::all, "all"}, {Show::talk, "talk"}, {Show::paper, "paper"}, {Show::clean, "clean"}},
+        "The parts around the panels. talk: no parameters and warning; paper: only labels, legend and clock; clean: "
+        "none, so that the picture does not state the factor of the deflection.");
     v.choice(written_if(picture.view.lang != Lang::en, "lang"), picture.view.lang, kLanguages, "Language of labels.");
-    v.number(written_if(picture.view.show.size != 1, "text_scale"), picture.view.show.size, sim::kPlainNumber,
+    v.number(written_if(picture.view.text_scale != 1, "text_scale"), picture.view.text_scale, sim::kPlainNumber,
              between(0.5, 4, "is outside 0.5 … 4"),
              "Size of text, lines and marks; at 1 the numbers of axes have 2 % of the height of a 16:9 picture.");
     v.value("size", size_format(picture.size), "Width and height in pixels; H.264 and VP9 need even numbers.");
@@ -104,9 +93,6 @@ void visit_picture(SceneVisitor& v, Picture& picture) {
     v.list("compare", compared_motions(picture.compare),
            "The motions that the picture shows at equal times: the mechanics of this or another scene, with changes. "
            "The first one is the main motion.");
-    v.boolean(written_if(picture.horizon, "horizon"), picture.horizon,
-              "Curves against time are paler during the intervals in which θ is not reproducible; needs a second run "
-              "with tighter tolerances and another method.");
     v.check([&picture](ObjectReader& r) { check_picture(r, picture); });
 }
 

@@ -18,7 +18,7 @@ const std::vector<sim::Channel> kTraceChannels = {
 std::string omitted_panels(const PlannedPictures& picture) {
     std::string out;
     if (!picture.layout) return out;
-    render::Shown shown = picture.view.show;
+    render::Shown shown = picture.view.shown();
     shown.captions = !picture.times.callouts.empty();
     shown.warning = false;  // few motions need it
     for (const render::PanelSpec& panel :
@@ -44,7 +44,6 @@ sim::Request request_of(const PlannedPictures& p, const sim::Problem& problem,
                         const std::vector<render::PanelSpec>& panels) {
     sim::Request request;
     request.end_time = p.end_time;
-    request.horizon = p.horizon;
     const FilmTimes& times = p.times;
     request.poses.resize(3);
     request.poses[kFramePoses].times = times.frames;

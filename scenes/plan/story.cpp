@@ -198,7 +198,7 @@ PictureOutput told_impact(PictureOutput film, const Scene& scene, const sim::Res
     film.view.keyframes = {
         {.at = at_time(touch), .zoom = kNear, .follow = render::Anchor{render::Anchor::Kind::contact}, .over = kMove},
         {.at = at_time(liftoff + 0.01 * (*span.to - liftoff)), .zoom = 1, .follow = render::Anchor{}, .over = kMove}};
-    if (!film.layout) film.layout = impact_layout(c.force_peak.has_value(), film.size, film.view.show.size);
+    if (!film.layout) film.layout = impact_layout(c.force_peak.has_value(), film.size, film.view.text_scale);
     return film;
 }
 

@@ -121,7 +121,6 @@ struct Picture {
     // Empty: only the motion of the scene. The first is the main motion; the scene itself must be listed to be shown.
     std::vector<Compared> compare;
     render::Comparison comparison = render::Comparison::panels;
-    bool horizon = false;  // strip charts are paler where θ is not reproducible
 };
 
 // Frames at the times k / fps with from <= k / fps < to, by rounded frame numbers. With another speed than real time,

@@ -127,7 +127,7 @@ TEST(SolidFilm, TheArrowOfTheSpeedIsSeenFromBelow) {
             FilmSetup setup = film_of(Style::solid);
             setup.width = 1280, setup.height = 720;
             setup.layout = LayoutNode{};
-            setup.view.show = {false, false, false, false, false, true};
+            setup.view.show = Show::paper;
             setup.view.shot.yaw = yaw, setup.view.shot.pitch = pitch;
             Film film(setup);
             setup.problem.cam->speed *= -1;
@@ -146,7 +146,7 @@ TEST(SolidFilm, ShowsEverythingFromAllSides) {
             FilmSetup setup = film_of(Style::solid);
             setup.width = 640, setup.height = 360;
             setup.layout = LayoutNode{};
-            setup.view.show = {false, false, false, false, false, false};
+            setup.view.show = Show::clean;
             setup.view.transparent = true;
             setup.view.shot.yaw = yaw, setup.view.shot.pitch = pitch;
             Film film(setup);

@@ -27,7 +27,7 @@ TEST(ForceArrows, AreInProportionToTheForce) {
             pose.t += 0.01;
         }
         setup.layout = leaf({.kind = kind});
-        setup.view.show.labels = false;  // F is beyond the tip
+        setup.view.show = Show::clean;  // F is beyond the tip
         const Color contact = palette(setup.view.theme).contact;
         Film film(std::move(setup));
         const Box box = film.geometry(1).layout.first(kind)->box;

@@ -122,12 +122,11 @@ TEST(Layout, TinyPicturesKeepTheMechanism) {
 
 TEST(Layout, WhatIsNotShownLeavesItsRoomToThePanels) {
     const Layout all = standard_layout(1920, 1080, kAll);
-    const Layout none = standard_layout(1920, 1080, kAll, 1, {false, false, false, false, false, false});
+    const Layout none = standard_layout(1920, 1080, kAll, 1, {false, false, false, false});
     EXPECT_FALSE(none.title || none.parameters || none.clock || none.scales || none.warning);
     EXPECT_GT(none.panels.front().box.h, all.panels.front().box.h + 150);
     const Layout untitled = standard_layout(1920, 1080, kAll, 1, {.title = false});
     EXPECT_NEAR(untitled.panels.front().box.y, all.panels.front().box.y - 64, 1);
-    EXPECT_TRUE(standard_layout(1920, 1080, kAll, 1, {.clock = false}).clock);  // its pills belong to the legend
 }
 
 // Panels of a grid without space are reported.

@@ -366,8 +366,8 @@ TEST(Steadiness, TheRingOfAnImpactLastsAsLongAtAnyFrameRate) {
     for (const double fps : {24.0, 30.0, 60.0}) {
         FilmSetup setup = film_of(Style::flat, {.duration = 0.8, .fps = fps});
         setup.fps = fps;
-        setup.layout = LayoutNode{};     // no ticks of impacts
-        setup.view.show.labels = false;  // no peaks beside the clock
+        setup.layout = LayoutNode{};    // no ticks of impacts
+        setup.view.show = Show::clean;  // no peaks beside the clock
         setup.impacts.resize(1);
         setup.impacts[0].t_start = 0.3;
         Film film(setup);

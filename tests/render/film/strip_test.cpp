@@ -284,26 +284,5 @@ TEST(Strips, AWindowInAStillHasItsOwnRange) {
     EXPECT_LT(range(20, 0.02), 0.8 * range(20, {}));  // the chart also contains the motion before the film
 }
 
-TEST(Unreliable, CurvesArePalerWithinTheIntervals) {
-    FilmSetup setup = everything();
-    setup.layout = leaf(strip(ChannelKind::theta));
-    Film plain(setup);
-    setup.unreliable = {{0.2, 0.4}};
-    Film film(setup);
-    const Image early = drawn(film, 11), early_plain = drawn(plain, 11);
-    int changed = 0;
-    for (std::size_t i = 0; i < early.pixels.size(); ++i) changed += early.pixels[i] != early_plain.pixels[i];
-    EXPECT_LE(changed, 3);  // not yet: the round end of the piece that begins later
-    const Image now = drawn(film, 47), before = drawn(plain, 47);
-    int left = now.width, right = 0;
-    for (int y = 0; y < now.height; ++y)
-        for (int x = 0; x < now.width; ++x) {
-            if (pixel_at(before, x, y) != pixel_at(now, x, y)) left = std::min(left, x), right = std::max(right, x);
-        }
-    const Box box = film.geometry(0).layout.panels.front().box;
-    EXPECT_NEAR(right - left, 0.25 * box.w, 0.03 * box.w);  // of 0.8 s
-    EXPECT_NEAR((left + right) / 2.0, box.x + 0.4 * box.w, 0.05 * box.w);
-}
-
 }  // namespace
 }  // namespace beamcam::render

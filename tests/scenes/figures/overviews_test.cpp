@@ -239,26 +239,6 @@ TEST(Overviews, ASpectrogramHasItsLargestAmplitudeAtTheFirstFrequency) {
                 HasSubstr("belongs to the figure \"spectrogram\""));
 }
 
-TEST(Overviews, HistogramsCountEachImpactOnce) {
-    const Reading reading =
-        testing::read(R"({"time": {"end": 1.5}, "beam": {"model": "rigid"}, "contact": {"restitution": 0.5},
-        "outputs": [{"type": "figure", "figure": "impact-histograms"}]})");
-    ASSERT_TRUE(reading.scene) << reading.report();
-    const auto figure = testing::simulated(*reading.scene, std::get<FigureOutput>(reading.scene->outputs[0]));
-    sim::Request request;
-    request.end_time = reading.scene->end_time;
-    const std::size_t impacts = sim::simulate(reading.scene->problem, request).impacts.size();
-    for (const auto& panel : figure.panels) {
-        double sum = 0;
-        for (std::size_t k = 0; k < panel.series[0].y.size(); k += 2) sum += panel.series[0].y[k];
-        EXPECT_EQ(sum, static_cast<double>(impacts));
-        const double width = panel.series[0].x[1];
-        EXPECT_EQ(width, render::round_down_125(width));
-    }
-    EXPECT_THAT([] { overview_of("impact-histograms", ""); },
-                ::testing::ThrowsMessage<render::PictureError>(HasSubstr("only 1 impact from 0 s to")));
-}
-
 // The instants that a figure names on the page of a column.
 std::vector<render::figure::PageCanvas::Written> instants_on(const render::figure::Figure& figure, const char* column) {
     const auto page = page_of(figure, *render::figure::column_named(column));

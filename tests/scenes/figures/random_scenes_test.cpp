@@ -131,7 +131,7 @@ void try_scenes(unsigned seed, int count) {
     for (int k = 0; k < count; ++k) {
         const char* name = dice.one_of({"series", "series", "series", "schematic", "free-fall", "deflection",
                                         "distance", "collision", "energy", "contact-places", "phase", "kymograph",
-                                        "spectrogram", "strobe", "impact-maps", "impact-histograms", "tip-vibration"});
+                                        "spectrogram", "strobe", "impact-maps", "tip-vibration"});
         const std::string output = std::string(name) == "series" ? ", " + series(dice) : "";
         const std::string& column = columns[static_cast<std::size_t>(k) % columns.size()];
         const std::string text =

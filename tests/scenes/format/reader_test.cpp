@@ -170,15 +170,16 @@ TEST(Reader, EveryOutputTypeIsRead) {
     EXPECT_TRUE(std::get<SummaryOutput>(outputs[5]).horizon);
 }
 
-TEST(Reader, PlatesAreLeftOutOneByOneOrByAPreset) {
+TEST(Reader, PartsBesideThePanelsAreChosenByAWord) {
     const auto view = [](const std::string& keys) {
         const Reading reading = read(R"({"outputs": [{"type": "still", "at": 0, )" + keys + "}]}");
         return std::pair{reading.scene ? std::get<PictureOutput>(reading.scene->outputs[0]).view : View{},
                          reading.report()};
     };
-    EXPECT_EQ(view(R"("show": {"clock": false})").first.show, (render::Shown{.clock = false}));
-    EXPECT_FALSE(view(R"("show": "clean")").first.show.labels);
-    EXPECT_TRUE(view(R"("show": "paper")").first.show.legend);
+    EXPECT_FALSE(view(R"("show": "clean")").first.labelled());
+    EXPECT_FALSE(view(R"("show": "paper")").first.shown().title);
+    EXPECT_TRUE(view(R"("show": "talk")").first.shown().title);
+    EXPECT_THAT(view(R"("show": {"clock": false})").second, HasSubstr("one of all, talk, paper, clean"));
     EXPECT_THAT(view(R"("show": "tlak")").second, HasSubstr("talk"));
     EXPECT_EQ(view(R"("background": "#f4f1ea")").first.paper, 0xf4f1eau);
     EXPECT_THAT(view(R"("background": "#202020")").second, HasSubstr("hardly readable"));

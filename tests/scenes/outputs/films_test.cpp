@@ -577,26 +577,6 @@ TEST(Films, TellOfSpeedsAndKeyframesOutOfPlace) {
     EXPECT_THAT(keyframes.second, HasSubstr("view.camera.keyframes.1.at = 0.2 s is not after the previous keyframe"));
 }
 
-// A second run alone knows where the motion is not reproducible: nobody pays for it who does not ask.
-TEST(Films, ArePalerWhereTheMotionIsNotReproducibleIfTheyAreAsked) {
-    const Folder folder;
-    const auto still = [&](const char* keys) {
-        folder.write("s.json",
-                     std::string(R"({"time": {"end": 4}, "outputs": [{"type": "still", "at": 4, "file": "s.png",
-            "size": [640, 360], "layout": "theta", "view": {"style": "flat"})") +
-                         keys + "}]}");
-        return shell(folder, "$BEAMCAM run s.json --force -v").err;
-    };
-    const auto digest = [&] { return shell(folder, "picture_hash s.png | cut -c1-64").out; };
-    EXPECT_THAT(still(""), HasSubstr(" integrations=1 "));
-    const std::string plain = digest();
-    EXPECT_THAT(still(R"(, "horizon": false)"), HasSubstr(" integrations=1 "));
-    EXPECT_EQ(digest(), plain);
-    EXPECT_THAT(still(R"(, "horizon": true)"), HasSubstr(" integrations=2 "));
-    EXPECT_NE(digest(), plain);
-    EXPECT_THAT(shell(folder, "$BEAMCAM plan s.json --force").out, HasSubstr("compared with a second run"));
-}
-
 // Events out of order are known only when the motion is.
 TEST(Films, RefuseKeyframesAtEventsOutOfOrder) {
     const Folder folder;

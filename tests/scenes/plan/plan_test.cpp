@@ -138,12 +138,6 @@ TEST(Plan, OneMotionServesEveryOutput) {
     EXPECT_EQ(run_of(p).tables.size(), 1u);
 }
 
-TEST(Plan, TheHorizonThatAPictureShowsDoesNotChangeTheSummary) {
-    const Plan p = plan_of(R"([{"type": "video", "horizon": true}, {"type": "summary"}])");
-    EXPECT_TRUE(shown_in(p).horizon);
-    EXPECT_FALSE(run_of(p).horizon);
-}
-
 // ---- golden texts ------------------------------------------------------------------------------
 
 TEST(PlanText, AFilm) {
