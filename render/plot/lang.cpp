@@ -45,7 +45,6 @@ constexpr Phrase kPhrases[] = {
     {"{} impacts", "{} 次冲击"},
     {"{} impact", "{} 次冲击"},
     {"stays in contact from {} on", "自 {} 起保持接触"},
-    {"from {} on", "{} 之后"},
     {"bends beyond {}", "挠曲超出 {}"},
     {"inextensible elastica", "不可伸长弹性线"},
     {"second-order", "二阶模型"},

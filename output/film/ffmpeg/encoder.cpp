@@ -80,7 +80,8 @@ EncoderSettings settings_of(const VideoOptions& o, const std::string& ending) {
             break;
         case Codec::webp:
             pixels("bgra", PixelLayout::bgra);
-            s.encoder_options = {{"quality", "80"}, {"compression_level", "2"}};
+            // Lossy animations keep remains of soft shadows: libwebp does not repaint what changes by a few levels.
+            s.encoder_options = {{"lossless", "1"}, {"compression_level", "1"}};
             s.container_options = {{"loop", "0"}};
             break;
     }

@@ -61,6 +61,7 @@ TEST_P(Formats, KeepColoursTimesAndTransparency) {
     if (kind.codec == Codec::webp) {
         const std::string bytes = read_file(file);
         EXPECT_EQ(bytes.substr(0, 4) + bytes.substr(8, 4), "RIFFWEBP");
+        EXPECT_NE(bytes.find("VP8L"), std::string::npos);  // lossless
         EXPECT_NE(bytes.find("ANIM"), std::string::npos);
         std::size_t frames = 0;
         for (std::size_t at = bytes.find("ANMF"); at != std::string::npos; at = bytes.find("ANMF", at + 4)) ++frames;
