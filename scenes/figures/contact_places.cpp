@@ -22,6 +22,22 @@ struct Places {
         if (!t.empty() && t.back() == at) return;
         t.push_back(at), place.push_back(where), value.push_back(colour);
     }
+    // Leaves one sample, the largest, of each collision shorter than `brief`: its marks would cover each other.
+    void thin(const std::vector<sim::Collision>& collisions, double brief) {
+        for (const sim::Collision& c : collisions) {
+            const double end = c.t_end.value_or(t.back());
+            if (end - c.t_start > brief) continue;
+            const auto index = [&](auto at) { return at - t.begin(); };
+            const auto from = index(std::ranges::lower_bound(t, c.t_start)),
+                       to = index(std::ranges::upper_bound(t, end));
+            if (from == to) continue;
+            const auto kept = std::max_element(value.begin() + from, value.begin() + to) - value.begin();
+            for (auto* all : {&t, &place, &value}) {
+                (*all)[static_cast<std::size_t>(from)] = (*all)[static_cast<std::size_t>(kept)];
+                all->erase(all->begin() + from + 1, all->begin() + to);
+            }
+        }
+    }
     double largest() const { return largest_magnitude(value); }
     Measure measure() const { return measure_of("m", largest_magnitude(place)); }
     // From this instant on, in these units.
@@ -84,7 +100,7 @@ Figure impulsive_places(const Subject& subject, const sim::Result& result) {
                              beam_label(length))}};
 }
 
-// The place of contact at each instant, coloured by the force.
+// The place of contact at each instant, coloured by the force; of a brief collision that of the largest force.
 Figure forceful_places(const Subject& subject, const sim::Result& result, const sim::Table& t) {
     const auto& [problem, units, lang, end] = subject;
     const auto &time = column(t, ChannelKind::t), &n = column(t, ChannelKind::contact_force),
@@ -101,16 +117,19 @@ Figure forceful_places(const Subject& subject, const sim::Result& result, const 
     const render::figure::ColorBar bar{.label = "$F$ / N", .from = 0, .to = on_beam.largest()};
     // As an angle on a disc, else as a length.
     const bool disc = !problem.cam->profile;
+    const Places whole = on_beam;
+    constexpr double kBrief = 0.03;  // of the time shown: about the width of a mark
+    for (Places* each : {&on_beam, &on_cam}) each->thin(result.collisions, kBrief * (whole.t.back() - whole.t.front()));
     const Measure length = on_beam.measure(),
                   around = disc ? Measure{180 / std::numbers::pi / problem.cam->radius, "°"} : on_cam.measure();
     std::vector<Panel> panels{places_panel(on_beam.points(0, 1, length.factor), bar, beam_label(length)),
                               places_panel(on_cam.points(0, 1, around.factor), bar,
                                            axis_label(disc ? "$s_{\\r{c}}$/$R$" : "$s_{\\r{c}}$", around.unit))};
     panels[0].title = phrase(lang, "on the beam"), panels[1].title = phrase(lang, "on the cam");
-    panels[0].caption = "on the beam, from its root";
+    panels[0].caption = "on the beam, from its root, in brief collisions at the largest force";
     panels[1].caption = disc ? "on the cam, from the ray $C$$B$" : "along the outline of the cam";
     if (const sim::Collision* first = collision_of(problem, result, 1))
-        if (auto alone = first_collision(*first, subject, on_beam, bar)) panels.push_back(std::move(*alone));
+        if (auto alone = first_collision(*first, subject, whole, bar)) panels.push_back(std::move(*alone));
     const double aspect = panels.size() > 2 ? 1.7 : 1.15;
     return {.panels = lettered(std::move(panels)), .stack = true, .aspect = aspect};
 }

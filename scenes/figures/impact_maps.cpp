@@ -7,6 +7,7 @@
 
 #include "scenes/figures/axis_labels.hpp"
 #include "scenes/figures/figure_types.hpp"
+#include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -28,18 +29,11 @@ double phase_of(const sim::Impact& hit) {
 }
 constexpr const char* kPhaseLabel = "$φ$ / (2π)";
 
-// A logarithmic axis for ratios of very different size: a slow touch can leave much faster than it came.
-void spread_ratios(Panel& panel) {
-    constexpr double kSpread = 30;  // the largest by the smallest
-    const std::vector<double>& ratios = panel.series.front().y;
-    if (ratios.empty()) return;
-    const auto [least, most] = std::ranges::minmax(ratios);
-    if (!(least > 0 && most > kSpread * least)) return;
-    panel.y.scale = render::Scale::logarithmic;
-    panel.y.from.reset();
-}
+// Ratios above this one have a logarithmic axis: a slow touch can leave much faster than it came.
+constexpr double kLargestLinearRatio = 3;
 
-// Restitution against speed, each collision against the next, and two speeds of each impact against the cam's phase.
+// Restitution against speed, and the speed of each impact against the cam's phase; in a second row each collision
+// against the next, if there are enough, and the hub's speed.
 std::vector<Panel> impact_maps(const Subject& subject, const sim::Result& result, double from, double to) {
     const auto& [problem, units, lang, end] = subject;
     const auto speed = [](const char* of) { return axis_label(of, "m/s"); };
@@ -62,28 +56,36 @@ std::vector<Panel> impact_maps(const Subject& subject, const sim::Result& result
     const std::vector<sim::Collision> all = strikes(problem, result.collisions, from, to);
     for (std::size_t k = 0; k + 1 < all.size(); ++k)
         next.series[0].add(std::abs(all[k].v_n_before), std::abs(all[k + 1].v_n_before));
-    loss.rules = {{.at = 1, .label = phrase(lang, "no loss")}, {.at = law}};
-    if (!next.series[0].x.empty()) {
-        const double fastest = std::ranges::max(next.series[0].x);
-        next.series.push_back(
-            {.x = {0, fastest}, .y = {0, fastest}, .solid = true, .weight = 0.5, .color = render::rgb(0x777777)});
-    }
+    loss.rules = {{.at = 1}, {.at = law}};
+    const double largest = loss.series[0].y.empty() ? 1 : std::max(1.0, std::ranges::max(loss.series[0].y));
+    loss.y.to = 1.05 * largest;
+    if (largest > kLargestLinearRatio) loss.y.scale = render::Scale::logarithmic, loss.y.from.reset();
     phase.x.to = hub.x.to = 1;
     hub.y.from.reset();
-    spread_ratios(loss);
-    if (problem.cam->speed == 0) return {loss, next};  // all impacts have one phase
-    return {loss, next, phase, hub};
+    std::vector<Panel> panels{loss};
+    const bool turns = problem.cam->speed != 0;  // else all impacts have one phase
+    if (turns) panels.push_back(phase);
+    constexpr std::size_t kFewest = 3;  // collisions that are followed by another
+    if (next.series[0].x.size() < kFewest) return panels;
+    const double fastest = std::ranges::max(next.series[0].x);
+    next.series.push_back(
+        {.x = {0, fastest}, .y = {0, fastest}, .solid = true, .weight = 0.5, .color = render::rgb(0x777777)});
+    panels.push_back(next);
+    if (turns) panels.push_back(hub);
+    return panels;
 }
 
 FigureDrawing prepare_maps(const Scene& scene, const FigureOutput& how, MotionRequests& requests) {
     const double from = how.series.from, to = how.series.to.value_or(scene.end_time);
     const std::size_t motion = requests.motion(scene.problem, to);
     const auto draw = [=](const Subject& subject, const sim::Result& result) -> Figure {
+        constexpr std::size_t kFewest = 5;
+        const std::size_t count = strikes(subject.problem, result.impacts, from, to).size();
+        if (count < kFewest)
+            throw render::PictureError(
+                fmt::format("figure impact-maps: only {} from {:g} s to {:g} s, too few for a map; raise time.end",
+                            counted(count, "impact"), from, to));
         std::vector<Panel> panels = impact_maps(subject, result, from, to);
-        std::erase_if(panels, [](const Panel& panel) { return panel.series.front().x.empty(); });
-        if (panels.empty())
-            throw render::PictureError(fmt::format(
-                "figure impact-maps: nothing strikes the cam from {:g} s to {:g} s; raise time.end", from, to));
         const double aspect = 0.8 * static_cast<double>(panels.size());
         return {.panels = lettered(std::move(panels)), .in_pairs = true, .aspect = aspect};
     };

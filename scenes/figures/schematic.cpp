@@ -207,7 +207,7 @@ class Drawing : private Sketch {
     void angle() {
         const double r = std::max(0.115 * unit_, 1.2 * p_.hub.radius);
         add({.kind = Kind::turn, .centre = {0, 0}, .radius = r, .from = 0, .to = theta_, .color = kInk, .width = 0.8});
-        constexpr double kNarrow = 0.3;  // [rad]: no room between beam and axis
+        constexpr double kNarrow = 0.55;  // [rad]: no room between beam and axis
         if (std::abs(theta_) < kNarrow) return label({r, 0}, "$θ$", {0.3, theta_ > 0 ? -0.9 : 0.9});
         label(r * sim::unit(0.5 * theta_), "$θ$", {0.75 * std::cos(0.5 * theta_) + 0.2, 0.75 * std::sin(0.5 * theta_)});
     }

@@ -46,6 +46,13 @@ Figure series_figure(const SeriesPlan& plan, const MotionResults& results) {
     std::vector<Panel> panels;
     for (const PlannedPanel& planned : plan.panels)
         std::ranges::move(series_panels(plan, planned, results), std::back_inserter(panels));
+    const auto stands = [](const Panel& panel) {
+        return std::ranges::all_of(panel.series,
+                                   [](const Series& s) { return std::ranges::min(s.x) == std::ranges::max(s.x); });
+    };
+    if (plan.abscissa.channel() && std::ranges::all_of(panels, stands))
+        throw render::PictureError(fmt::format("series: {} does not change from {:g} s to {:g} s; choose another \"x\"",
+                                               name(*plan.abscissa.channel()), plan.keys.from, plan.end));
     Figure figure{
         .title = series_title(plan.keys), .panels = lettered(std::move(panels)), .stack = true, .share_x = true};
     plan.abscissa.share(figure, plan.motions.front().problem, plan.units);

@@ -76,11 +76,16 @@ void shorten(Spectrogram& s, double least) {
     s.amplitude = std::move(kept), s.lines = shown;
 }
 
-// A twentieth of the interval, or four periods of the slowest vibration if four such windows fit.
+// A twentieth of the interval, or four periods of the slowest vibration; four windows must fit.
 double usual_window(const sim::Problem& problem, double length) {
     const std::vector<double> frequencies = frequencies_of(problem);
-    const double slowest = frequencies.empty() ? 0 : 1 / frequencies.front();  // period [s]
-    return std::min(std::max(length / 20, 4 * slowest), length / 4);
+    const double slowest = frequencies.empty() ? 0 : frequencies.front();
+    if (length * slowest < 16)
+        throw render::PictureError(
+            fmt::format("figure spectrogram: {:g} s are too few periods of the slowest vibration, {:.3g} Hz; raise "
+                        "time.end, or set \"window\"",
+                        length, slowest));
+    return std::max(length / 20, 4 / slowest);
 }
 
 render::figure::Cells cells_of(const Spectrogram& s, double most, double factor) {
@@ -99,11 +104,10 @@ render::figure::Cells cells_of(const Spectrogram& s, double most, double factor)
     return cells;
 }
 
-// The first one that the keys name, else the one that vibrates most.
-sim::Channel channel_of(const Scene& scene, const SeriesKeys& keys) {
+// The first one that the keys name, else the deflection of the tip.
+sim::Channel channel_of(const SeriesKeys& keys) {
     if (!keys.panels.empty() && !keys.panels.front().channels.empty()) return keys.panels.front().channels.front();
-    const bool rigid = scene.problem.beam.model == sim::ModelKind::rigid;
-    return {rigid ? sim::ChannelKind::theta_dot : sim::ChannelKind::tip_deflection, 0};
+    return {sim::ChannelKind::tip_deflection, 0};
 }
 
 // `measure`: of the amplitudes, of which `most` is the largest.
@@ -123,7 +127,7 @@ Panel spectrogram_panel(sim::Channel channel, const Spectrogram& s, double most,
 
 FigureDrawing prepare_spectrogram(const Scene& scene, const FigureOutput& how, MotionRequests& requests) {
     const SeriesKeys& keys = how.series;
-    const sim::Channel channel = channel_of(scene, keys);
+    const sim::Channel channel = channel_of(keys);
     const double from = keys.from, to = keys.to.value_or(scene.end_time);
     const double window = keys.window.value_or(usual_window(scene.problem, to - from));
     if (!(window <= (to - from) / 2))
@@ -139,8 +143,9 @@ FigureDrawing prepare_spectrogram(const Scene& scene, const FigureOutput& how, M
             const double rate = 1 / (rows.values[0][1] - rows.values[0][0]);
             Spectrogram s = spectrogram(rows, window, highest.value_or(0.1875 * rate));
             const double most = *std::ranges::max_element(s.amplitude);
-            if (!(most > 0))
-                throw render::PictureError(fmt::format("figure spectrogram: {} does not change from {:g} s to {:g} s",
+            constexpr double kStill = 1e-3;  // of its magnitude
+            if (!(most > kStill * largest_magnitude(rows.values.back())))
+                throw render::PictureError(fmt::format("figure spectrogram: {} does not vibrate from {:g} s to {:g} s",
                                                        name(channel), from, to));
             if (!highest) shorten(s, most * std::pow(10, -kDecades));
             Panel panel = spectrogram_panel(channel, s, most, measure_of(unit, most, subject.units));
@@ -155,7 +160,7 @@ FigureDrawing prepare_spectrogram(const Scene& scene, const FigureOutput& how, M
 
 extern const FigureType kSpectrogram{.name = "spectrogram",
                                      .title = "Amplitudes by frequency and time",
-                                     .refusal = no_refusal,
+                                     .refusal = needs_bending,
                                      .maker = prepare_spectrogram,
                                      .keys = {"channels", "from", "to", "window", "highest"}};
 

@@ -1,5 +1,5 @@
 // Displacement, velocity, acceleration and jerk of the straight lever that follows the cam, over a turn of the cam;
-// over the first two those of the beam's hub in the last turn of the scene, if it is slow. MODEL.md (S106).
+// over the first two those of the beam's hub in the last whole turn of the scene, if it is slow. MODEL.md (S106).
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -34,18 +34,25 @@ std::vector<sim::Lever::State> turn_of(const sim::Lever& lever) {
     return states;
 }
 
-// The beam's curves over the turn from 0° to 360°; a break where it ends.
+// The times between which the cam makes the last whole turn from φ = 0 of the scene; nothing if it makes none.
+std::optional<std::pair<double, double>> last_turn(const Scene& scene) {
+    const sim::Cam& cam = *scene.problem.cam;
+    if (cam.speed == 0) return std::nullopt;
+    const double period = cam_period(scene.problem), begun = -cam.phase / sim::kFullTurn * (cam.speed > 0 ? 1 : -1);
+    const double turns = std::floor(scene.end_time / period + begun + 1e-9), end = (turns - begun) * period;
+    if (end - period < -1e-9 * period) return std::nullopt;
+    return std::pair{std::max(0.0, end - period), std::min(end, scene.end_time)};
+}
+
+// The beam's curves over the turn from 0° to 360°.
 void add_beam(const sim::Problem& problem, const sim::Table& table, double angle_factor, Lang lang, Panel& angle,
               Panel& velocity) {
     Series theta{.label = phrase(lang, "beam"), .look = 1, .weight = 0.8}, rate = theta;
     const auto &psi = column(table, ChannelKind::cam_angle), &at = column(table, ChannelKind::theta),
                &speed = column(table, ChannelKind::theta_dot);
-    double turns = 0;
+    const double turn = std::round(-std::max(psi.front(), psi.back()) / sim::kFullTurn);
     for (std::size_t i = 0; i < psi.size(); ++i) {
-        const double now = std::floor(-psi[i] / sim::kFullTurn), phi = (-psi[i] - sim::kFullTurn * now) * kDegrees;
-        if (i > 0 && now != turns)
-            for (Series* each : {&theta, &rate}) each->add(phi, std::nan(""));
-        turns = now;
+        const double phi = (-psi[i] / sim::kFullTurn - turn) * 360;
         theta.add(phi, at[i] * angle_factor);
         rate.add(phi, speed[i] / problem.cam->speed);
     }
@@ -80,7 +87,7 @@ Figure svaj_figure(const Subject& subject, const sim::Result* result, std::size_
     if (result) add_beam(problem, result->tables[table], angle.factor, lang, panels[0], panels[1]);
     Figure figure{
         .title = kLeverTitle, .panels = lettered(std::move(panels)), .stack = true, .share_x = true, .aspect = 1.7};
-    if (result) figure.title += "; dashed: the hub of the beam in the last turn";
+    if (result) figure.title += "; dashed: the hub of the beam in the last whole turn";
     if (result)
         add_caption(figure, {{&problem, result}}, units);
     else
@@ -90,12 +97,11 @@ Figure svaj_figure(const Subject& subject, const sim::Result* result, std::size_
 
 FigureDrawing prepare_svaj(const Scene& scene, const FigureOutput&, MotionRequests& requests) {
     const sim::Problem& problem = scene.problem;
-    if (problem.cam->speed == 0)
-        return [](const Subject& subject, const MotionResults&) { return svaj_figure(subject, nullptr, 0); };
+    const auto turn = last_turn(scene);
+    if (!turn) return [](const Subject& subject, const MotionResults&) { return svaj_figure(subject, nullptr, 0); };
     const std::size_t motion = requests.motion(problem, scene.end_time);
-    const double from = std::max(0.0, scene.end_time - cam_period(problem));
     const std::size_t table =
-        requests.curve(motion, {from, scene.end_time, kTurnRows}, {}, sim::Channel{ChannelKind::theta},
+        requests.curve(motion, {turn->first, turn->second, kTurnRows}, {}, sim::Channel{ChannelKind::theta},
                        {sim::Channel{ChannelKind::theta_dot}, sim::Channel{ChannelKind::cam_angle}});
     return [motion, table](const Subject& subject, const MotionResults& results) {
         return svaj_figure(subject, results[motion], table);

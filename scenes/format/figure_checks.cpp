@@ -9,6 +9,7 @@
 #include "scenes/figures/sweeps.hpp"
 #include "scenes/format/checks.hpp"
 #include "scenes/format/suggest.hpp"
+#include "scenes/motions/identity.hpp"
 
 namespace beamcam::scenes {
 
@@ -35,6 +36,11 @@ void require_one_unit(ObjectReader& r, const char* key, const std::vector<sim::C
 void check_interval(ObjectReader& r, const FigureOutput& figure) {
     const SeriesKeys& series = figure.series;
     if (series.to) check_end(r, "to", *series.to);
+    const sim::Problem& first = series.compare.empty() ? r.context().scene.problem : series.compare.front().problem;
+    for (const auto& [key, event] : {std::pair{"from", series.from_event}, std::pair{"to", series.to_event}})
+        if (event && event->kind != Instant::Kind::apex && !first.cam)
+            return r.reject(key, " = {}: the scene has no cam (\"cam\": null); give it one",
+                            in_quotes(name_of(*event)));
     if (series.needs_events()) return;
     const double end = series.to.value_or(r.context().scene.end_time);
     if (!(series.from < end))
@@ -109,6 +115,19 @@ void check_comparison(ObjectReader& r, const SeriesKeys& series) {
     if (series.apart && series.compare.empty())
         r.reject("comparison", " = \"panels\" needs several motions; add \"compare\"");
     for (const Compared& motion : series.compare) check_markup(r, "compare", motion.label);
+    const auto key = [](sim::Problem problem) {
+        if (problem.beam.model == sim::ModelKind::rigid) problem.beam.modes = 0;  // it has none
+        return motion_key(problem);
+    };
+    const auto is_first = [&](const Compared& motion) { return key(motion.problem) == key(series.compare[0].problem); };
+    if (series.compare.size() > 1 && std::ranges::all_of(series.compare, is_first))
+        r.reject("compare", ": all motions are the same; a rigid beam has no modes");
+}
+
+bool bends(const Scene& scene, const SeriesKeys& series) {
+    const auto flexible = [](const sim::Problem& problem) { return problem.beam.model != sim::ModelKind::rigid; };
+    return series.compare.empty() ? flexible(scene.problem)
+                                  : std::ranges::any_of(series.compare, flexible, &Compared::problem);
 }
 
 void check_series(ObjectReader& r, FigureOutput& figure) {
@@ -124,6 +143,9 @@ void check_series(ObjectReader& r, FigureOutput& figure) {
     check_markup(r, "x_label", series.x_label);
     check_residuals(r, series);
     check_comparison(r, series);
+    for (const SeriesPanel& panel : series.panels)
+        if (panel.channels.front().kind == sim::ChannelKind::tip_deflection && !bends(r.context().scene, series))
+            r.reject_object("channels", ": tip_deflection: a rigid beam does not bend; choose another beam.model");
     warn_of_undrawn_data(r, series);
 }
 

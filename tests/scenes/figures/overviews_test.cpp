@@ -287,21 +287,38 @@ TEST(Overviews, AStrobeShowsNineInstantsAndALength) {
     EXPECT_THAT(shapes.back().markup, HasSubstr("mm"));
 }
 
-TEST(Overviews, MapsHaveAPointForEachImpact) {
-    const auto figure = overview_of("impact-maps", "");
-    ASSERT_EQ(figure.panels.size(), 3u);  // one collision has no next
-    EXPECT_EQ(figure.panels[1].series[0].x.size(), 1u);
-    EXPECT_NEAR(figure.panels[1].series[0].x[0], 1 - 0.277394 / (2 * M_PI), 1e-6);  // clockwise
-    EXPECT_EQ(figure.panels[2].series[0].x, figure.panels[1].series[0].x);
-    EXPECT_LT(figure.panels[2].series[0].y[0], 0);  // the hub falls
-    EXPECT_THROW(overview_of("impact-maps", R"(, "to": 0.1)"), render::PictureError);
+// A bouncing rigid beam: each collision is one impact.
+render::figure::Figure bounces(const std::string& cam_speed, const std::string& end) {
+    return testing::simulated(R"({"cam": {"speed": )" + cam_speed +
+                              R"(}, "beam": {"model": "rigid"}, "time": {"end": )" + end +
+                              R"(}, "contact": {"restitution": 0.5},
+        "outputs": [{"type": "figure", "figure": "impact-maps"}]})");
 }
 
-// One collision with a cam at rest has neither a next one nor phases.
-TEST(Overviews, MapsOfACamAtRestHaveNoPhases) {
-    const auto figure = testing::simulated(
-        R"({"cam": {"speed": 0}, "time": {"end": 0.4}, "outputs": [{"type": "figure", "figure": "impact-maps"}]})");
-    EXPECT_EQ(figure.panels.size(), 1u);
+TEST(Overviews, MapsHaveAPointForEachImpact) {
+    const auto figure = bounces("1", "1.2");
+    ASSERT_EQ(figure.panels.size(), 4u);
+    const std::size_t impacts = figure.panels[1].series[0].x.size();
+    EXPECT_GE(impacts, 5u);
+    EXPECT_NEAR(figure.panels[1].series[0].x[0], 1 - 0.277394 / (2 * M_PI), 1e-5);  // clockwise
+    EXPECT_EQ(figure.panels[2].series[0].x.size(), impacts - 1);                    // the last has no next
+    EXPECT_EQ(figure.panels[3].series[0].x, figure.panels[1].series[0].x);
+    EXPECT_LT(figure.panels[3].series[0].y[0], 0);     // the hub falls
+    EXPECT_EQ(figure.panels[0].y.to, 1.05);            // restitutions below 1 have the axis up to 1
+    EXPECT_EQ(bounces("0", "1.2").panels.size(), 2u);  // a cam at rest has no phases
+}
+
+TEST(Overviews, MapsOfFewImpactsAreRejected) {
+    EXPECT_THAT([] { bounces("1", "0.4"); },
+                ::testing::ThrowsMessage<render::PictureError>(HasSubstr("only 1 impact from 0 s to 0.4 s, too few")));
+}
+
+// One collision of many impacts has a row alone.
+TEST(Overviews, MapsOfOneCollisionAreARow) {
+    EXPECT_EQ(testing::simulated(R"({"beam": {"modes": 8}, "contact": {"model": "restitution"}, "time": {"end": 0.3},
+                                     "outputs": [{"type": "figure", "figure": "impact-maps"}]})")
+                  .panels.size(),
+              2u);
 }
 
 TEST(Overviews, TakeAnIntervalAndNoOtherKeysOfSeries) {

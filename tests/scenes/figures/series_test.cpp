@@ -101,7 +101,7 @@ TEST(Series, ComparesMotions) {
     EXPECT_EQ(figure.panels[0].series[1].label, "rigid");
     EXPECT_EQ(figure.title, "Hub angle $θ$");
     const Figure both = figure_of(
-        R"("panels": [{"channels": ["theta"], "right": ["gap"]}], "compare": [{"label": "a"}, {"label": "b"}])");
+        R"("panels": [{"channels": ["theta"], "right": ["gap"]}], "compare": [{"label": "a"}, {"label": "b", "set": {"beam.modes": 1}}])");
     // A panel with two axes shows one motion, and its axes have the keys of the curves.
     ASSERT_EQ(both.panels.size(), 2u);
     EXPECT_EQ(both.panels[1].title, "b");
