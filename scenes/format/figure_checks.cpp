@@ -144,7 +144,8 @@ void check_series(ObjectReader& r, FigureOutput& figure) {
     check_residuals(r, series);
     check_comparison(r, series);
     for (const SeriesPanel& panel : series.panels)
-        if (panel.channels.front().kind == sim::ChannelKind::tip_deflection && !bends(r.context().scene, series))
+        if (std::ranges::count(panel.channels, sim::Channel{sim::ChannelKind::tip_deflection}) > 0 &&
+            !bends(r.context().scene, series))
             r.reject_object("channels", ": tip_deflection: a rigid beam does not bend; choose another beam.model");
     warn_of_undrawn_data(r, series);
 }

@@ -399,6 +399,7 @@ TEST(Figures, WithoutContentAreRejected) {
     EXPECT_THAT(report(rigid + "\"tip-vibration\""), HasSubstr("a rigid beam does not bend"));
     EXPECT_THAT(report(rigid + "\"spectrogram\""), HasSubstr("a rigid beam does not bend"));
     EXPECT_THAT(report(rigid + "\"apex-modes\""), HasSubstr("a rigid beam has no modes"));
+    EXPECT_THAT(report(rigid + R"("series", "panels": [{"channels": []}])"), HasSubstr("channels"));
     EXPECT_EQ(report(rigid + "\"models\""), "");  // other models beside the rigid one
     EXPECT_THAT(report(R"("cam": null, "outputs": [{"type": "figure", "figure": "collision")"),
                 HasSubstr("from = \"collision 1\": the scene has no cam"));
