@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """A browser (Chromium) shows the page that plays the motion: the beam has the direction that the still of the same instant shows, and the
-clock and the angle are those of the motion. An arc marks the angle of the hub, an arrow the sense in which the cam turns.
+clock and the angle are those of the motion. An arc marks the angle of the hub, an arrow the sense in which the cam turns; a bent beam has
+the colours of its moment.
 
 page.py PROGRAM
 
@@ -93,6 +94,11 @@ with tempfile.TemporaryDirectory() as folder:
     print(reach)
     if not 1.02 < reach < 1.25:
         sys.exit(f"the support of a large hub reaches {reach} times the hub's radius below its axis")
+    subprocess.run([sys.argv[1], "render", "s.json", "-q", "--force", "-o", "s.html", "--set", "cam={}", "--set", "beam={}"], cwd=folder, check=True)
+    browser(folder, 0.282, f"--screenshot={folder}/page.png")
+    bent = sum(pixel[2] > pixel[0] + 90 for pixel in pixels_of(f"{folder}/page.png"))
+    if bent < 1000:
+        sys.exit(f"{bent} pixels of a bent beam have the colour of its moment")
     arrow = {speed: marks[speed] - marks[0] for speed in (-3, 3)}
     left = min(x for x, _ in arrow[3] | arrow[-3]) + 14
     heads = {speed: sum(x < left for x, _ in places) for speed, places in arrow.items()}

@@ -20,7 +20,7 @@ const Palette kLight{.paper = rgb(0xFCFCFA),
                      .steel = rgb(0xC3C9D3),
                      .steel_edge = rgb(0x2A2F39),
                      .pin = rgb(0x4A505C),
-                     .moment = {rgb(0x005C99), rgb(0x5AA0CF), rgb(0xD3DAE3), rgb(0xE8A06A), rgb(0xC65200)},
+                     .moment = {rgb(0x005C99), rgb(0x5AA0CF), rgb(0xD3DAE3), rgb(0xE095A8), rgb(0xAE1243)},
                      .force = {rgb(0xF6C9A4), rgb(0xE3721C), rgb(0x9C2F00)}};
 
 const Palette kDark{.paper = rgb(0x14171D),
@@ -35,7 +35,7 @@ const Palette kDark{.paper = rgb(0x14171D),
                     .steel = rgb(0x8D95A3),
                     .steel_edge = rgb(0xD9DEE6),
                     .pin = rgb(0xC3C9D3),
-                    .moment = {rgb(0x2E9BE0), rgb(0x7DB7DC), rgb(0xC4CBD6), rgb(0xEBA878), rgb(0xFF7A1F)},
+                    .moment = {rgb(0x2E9BE0), rgb(0x7DB7DC), rgb(0xC4CBD6), rgb(0xEE9DB0), rgb(0xF0476F)},
                     .force = {rgb(0xFFD9B8), rgb(0xFF9A4A), rgb(0xFF5A00)}};
 
 const Palette kPrint{.paper = rgb(0xFFFFFF),
@@ -50,7 +50,7 @@ const Palette kPrint{.paper = rgb(0xFFFFFF),
                      .steel = rgb(0xD9D9D9),
                      .steel_edge = rgb(0x000000),
                      .pin = rgb(0x333333),
-                     .moment = {rgb(0x005C99), rgb(0x5AA0CF), rgb(0xE4E4E4), rgb(0xE8A06A), rgb(0xC65200)},
+                     .moment = {rgb(0x005C99), rgb(0x5AA0CF), rgb(0xE4E4E4), rgb(0xE095A8), rgb(0xAE1243)},
                      .force = {rgb(0xF6C9A4), rgb(0xE3721C), rgb(0x9C2F00)}};
 
 // Distance from one colour to another, for shares of a mixture of both.

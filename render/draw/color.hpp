@@ -1,7 +1,7 @@
 // Colours as drawn (sRGB, 0…1, not premultiplied), and the palette of each theme.
 //
-// Meanings are fixed throughout: blue is the beam and motion, vermilion is contact, grey is reference.
-// Blue and vermilion are distinguishable with every common colour deficiency.
+// Meanings are fixed throughout: blue is the beam and motion, vermilion is contact force and nothing else, grey is
+// reference; bending moments are blue to crimson. These pairs are distinguishable with every common colour deficiency.
 #pragma once
 
 #include <algorithm>

@@ -66,9 +66,10 @@ class CloseUpPanel final : public FilmPanel {
         canvas.clip(area_, [&] {
             canvas.without_halo([&] {
                 draw_cam(canvas, pose);
-                draw_beam(canvas, pose);
+                if (!is_above(near)) draw_beam(canvas, pose);
             });
         });
+        if (is_above(near)) point_to_beam(canvas);
         CloseUpReadings{context_, motion(), box_, area_, unit_}.draw(canvas, pose, at(0, near.gap).y);
     }
 
@@ -133,16 +134,18 @@ class CloseUpPanel final : public FilmPanel {
         return out;
     }
 
+    bool is_above(const sim::Nearest& near) const { return near.gap > kAbove * depth_; }  // the beam, the plot
+    void point_to_beam(Canvas& canvas) const {
+        const double u = context_.look.unit, x = area_.x + 20 * u;
+        const Color color = context_.look.palette.motion;
+        canvas.arrow({x, area_.y + 40 * u}, {x, area_.y + 10 * u}, {color, 2.4 * u}, {14 * u});
+        canvas.text({x + 14 * u, area_.y + 31 * u}, context_.look.translate("beam"),
+                    {.size = context_.look.letters.words, .color = color, .weight = Weight::medium});
+    }
+
     void draw_beam(Canvas& canvas, const sim::Pose& pose) const {
         const Palette& p = context_.look.palette;
         const double u = context_.look.unit;
-        if (pose.nearest->gap > kAbove * depth_) {  // above the plot: an arrow points to it
-            const double x = area_.x + 20 * u;
-            canvas.arrow({x, area_.y + 40 * u}, {x, area_.y + 10 * u}, {p.motion, 2.4 * u}, {14 * u});
-            canvas.text({x + 14 * u, area_.y + 31 * u}, context_.look.translate("beam"),
-                        {.size = context_.look.letters.words, .color = p.motion, .weight = Weight::medium});
-            return;
-        }
         const std::vector<Vec2> heights = face(pose);
         std::vector<Vec2> edge;
         for (Vec2 h : heights) edge.push_back(at(h.x, h.y));

@@ -26,7 +26,8 @@ void CloseUpReadings::draw(Canvas& canvas, const sim::Pose& pose, double face) c
                                : unit.factor != 1e-6 || size >= 1                       ? quantity(size, "m")
                                : size < 1e-3 ? fmt::format("{}\u00A0µm", fixed(size * 1e6, size < 1e-5 ? 1 : 0))
                                              : fmt::format("{}\u00A0mm", fixed(size * 1e3, size < 0.1 ? 1 : 0));
-    // The place of the word does not depend on the number. Both words have room, or both symbols are in their place.
+    // The place of the word does not depend on the number. Without room for both words there are symbols, or the colour
+    // alone.
     const TextStyle style{.size = context.look.letters.heading,
                           .color = deep ? p.contact : p.motion,
                           .weight = Weight::medium,
@@ -34,14 +35,16 @@ void CloseUpReadings::draw(Canvas& canvas, const sim::Pose& pose, double face) c
                           .tabular = true};
     const Vec2 right{plot.right(), box.y + 26 * u};
     const double widest = std::max(canvas.measure(amount, style).w, canvas.measure(kWidestGap, style).w) + 8 * u;
-    const bool words =
-        canvas.measure("$y$ / µm" + context.look.translate("penetration"), style).w + 16 * u + widest <= plot.w;
+    const auto fits = [&](const std::string& name) {
+        return canvas.measure("$y$ / µm" + name, style).w + 16 * u + widest <= plot.w;
+    };
     canvas.text(right, amount, style);
-    canvas.text(right - Vec2{widest, 0},
-                words  ? context.look.translate(deep ? "penetration" : "gap")
-                : deep ? "$δ$"
-                       : "$g$",
-                style);
+    if (fits("$δ$"))
+        canvas.text(right - Vec2{widest, 0},
+                    fits(context.look.translate("penetration")) ? context.look.translate(deep ? "penetration" : "gap")
+                    : deep                                      ? "$δ$"
+                                                                : "$g$",
+                    style);
     if (!std::holds_alternative<sim::StickSlipFriction>(motion.problem.contact.friction) || !(near.force > 0)) return;
     const double line = plot.y + 2 * u + 1.1 * context.look.letters.words;
     const bool on_beam = face > line;

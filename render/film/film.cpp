@@ -9,8 +9,8 @@
 #include "render/draw/dirty_tiles.hpp"
 #include "render/film/caption_band.hpp"
 #include "render/film/clock_line.hpp"
-#include "render/film/color_bars.hpp"
 #include "render/film/mechanism_panel.hpp"
+#include "render/film/moment_bar.hpp"
 #include "render/film/panel.hpp"
 #include "render/film/parameter_line.hpp"
 #include "render/plot/user_text.hpp"
@@ -83,7 +83,7 @@ bool Film::Prepared::draw_background(Canvas& canvas) const {
     if (!context.setup->view.transparent) canvas.paint(context.look.palette.paper);
     const bool cut = draw_header(canvas);
     for (const auto& panel : panels) panel->draw_background(canvas);
-    draw_color_bars(canvas, context);
+    draw_moment_bar(canvas, context);
     return cut;
 }
 

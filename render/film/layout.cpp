@@ -47,8 +47,9 @@ PictureFrame picture_frame(int width, int height, const Shown& shown) {
     const bool has_title = shown.title && w >= 320 * u && h >= 300 * u,
                has_parameters = shown.parameters && w >= 560 * u && h >= 480 * u;
     const bool has_clock = shown.labels && w >= 230 * u && h >= 190 * u;
-    const bool is_large = w >= (wide ? 1200 : 860) * u && h >= 640 * u, has_scales = shown.labels && is_large;
-    const double scales = std::max(560 * u, 30 * out.letters.words);  // width of two
+    const bool is_large = w >= (wide ? 1200 : 860) * u && h >= 640 * u,
+               has_scale = shown.labels && shown.moment && is_large;
+    const double scale = std::max(250 * u, 14 * out.letters.words);  // width
     if (has_title) {
         out.title = Box{margin, f.top, w - 2 * margin, 64 * u};
         f.top += 64 * u;
@@ -62,18 +63,18 @@ PictureFrame picture_frame(int width, int height, const Shown& shown) {
         out.warning = Box{margin, f.bottom - 26 * u, w - 2 * margin, 26 * u};
         f.bottom -= 40 * u;
     }
-    const bool apart = has_scales && w < 66 * out.letters.words;  // beside the clock there is not enough space
+    const bool apart = has_scale && w < 50 * out.letters.words;  // beside the clock there is not enough space
     if (apart) {
-        out.scales = Box{w - margin - scales, f.bottom - 56 * u, scales, 56 * u};
+        out.scale = Box{w - margin - scale, f.bottom - 56 * u, scale, 56 * u};
         f.bottom -= 64 * u;
     }
     if (has_clock) {
         out.clock = Box{margin, f.bottom - 56 * u, w - 2 * margin, 56 * u};
         f.bottom -= 56 * u;
     }
-    if (has_scales && !apart) {
-        out.scales = Box{w - margin - scales, out.clock->y, scales, 56 * u};
-        out.clock->w = out.scales->x - 30 * u - out.clock->x;
+    if (has_scale && !apart) {
+        out.scale = Box{w - margin - scale, out.clock->y, scale, 56 * u};
+        out.clock->w = out.scale->x - 30 * u - out.clock->x;
     }
     if (has_title || has_parameters) f.top += 0.8 * out.letters.words;
     if (has_clock) f.bottom -= 1.3 * out.letters.words;

@@ -44,10 +44,11 @@ struct LayoutNode {
 // Visible parts around the panels. The panels take the space of hidden parts.
 struct Shown {
     bool title = true, parameters = true;
-    bool labels = true;     // clock, colour scales, exaggeration, playback speed
+    bool labels = true;     // clock, colour scale, exaggeration, playback speed
     bool warning = true;    // of a motion that leaves its model, in the corner
     bool captions = false;  // texts of events, in a band below the panels
     double size = 1;        // scale factor of letters, lines and marks
+    bool moment = true;     // the beam has the colours of its bending moment
 };
 
 // The three sizes of letters in a picture [px]: 34, 20 and 16 in one of 1280×720, with half as much again in a
@@ -68,8 +69,8 @@ struct Layout {
     Letters letters;
     std::optional<Box> title;  // boxes of lines of text
     std::optional<Box> parameters;
-    std::optional<Box> clock;   // and exaggeration and speed beside it
-    std::optional<Box> scales;  // colour bars
+    std::optional<Box> clock;  // and exaggeration and speed beside it
+    std::optional<Box> scale;  // of the bending moment
     std::optional<Box> warning;
     std::optional<Box> captions;  // texts of events
     std::vector<PanelSlot> panels;

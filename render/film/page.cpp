@@ -11,6 +11,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <ranges>
 
 #include "render/film/mechanism_labels.hpp"
 #include "render/film/panel.hpp"
@@ -30,18 +31,21 @@ constexpr std::size_t kStations = 25;  // of the stored polyline
 // The stored data of one instant.
 struct Instant {
     double t = 0, theta = 0, cam_angle = 0, force = 0;
-    std::vector<Vec2> points;  // centre of the drawn section, root to tip; then the nearest point of the disc
+    std::vector<Vec2> points;    // centre of the drawn section, root to tip; then the nearest point of the disc
+    std::vector<double> moment;  // at the points of the beam, −1…1 of its scale; of a rigid beam none
 };
 
 Instant instant_of(const FilmContext& context, int frame, double depth, double& thickness) {
     const sim::Pose pose = context.pose(0, frame);
     const DrawnBeam beam = drawn_beam(context.motion(0).problem, pose, context.scales.exaggeration, depth);
     thickness = beam.high - beam.low;
-    Instant out{pose.t, pose.theta, pose.cam_angle, pose.nearest ? pose.nearest->force : 0, {}};
+    Instant out{pose.t, pose.theta, pose.cam_angle, pose.nearest ? pose.nearest->force : 0, {}, {}};
     const std::size_t last = beam.line.size() - 1, stations = std::min(kStations, last + 1);
     for (std::size_t i = 0; i < stations; ++i) {
         const std::size_t at = i * last / (stations - 1);
         out.points.push_back(beam.line[at] + beam.left[at] * ((beam.low + beam.high) / 2));
+        if (context.scales.moment > 0 && at < pose.moment.size())
+            out.moment.push_back(pose.moment[at] / context.scales.moment);
     }
     out.points.push_back(beam.contact ? beam.contact->on_disc : Vec2{});
     return out;
@@ -55,9 +59,14 @@ void add_ends_of_contacts(const FilmContext& context, std::vector<Instant>& all)
             if (after == all.begin() || after == all.end() || after->t == *t) continue;
             const Instant &a = *std::prev(after), &b = *after;
             const double share = (*t - a.t) / (b.t - a.t);
-            Instant end{*t, a.theta + (b.theta - a.theta) * share, a.cam_angle + (b.cam_angle - a.cam_angle) * share, 0,
-                        a.points};
+            Instant end{*t,
+                        a.theta + (b.theta - a.theta) * share,
+                        a.cam_angle + (b.cam_angle - a.cam_angle) * share,
+                        0,
+                        a.points,
+                        a.moment};
             for (std::size_t i = 0; i < end.points.size(); ++i) end.points[i] += (b.points[i] - a.points[i]) * share;
+            for (std::size_t i = 0; i < end.moment.size(); ++i) end.moment[i] += (b.moment[i] - a.moment[i]) * share;
             all.insert(after, std::move(end));
         }
 }
@@ -73,6 +82,8 @@ bool reproduces(const Instant& a, const Instant& b, const Instant& between, doub
     for (std::size_t i = 0; i < between.points.size(); ++i)
         if (norm(a.points[i] + (b.points[i] - a.points[i]) * share - between.points[i]) > kPageTolerance * length)
             return false;
+    for (std::size_t i = 0; i < between.moment.size(); ++i)
+        if (off(a.moment[i], b.moment[i], between.moment[i]) > kPageMomentTolerance) return false;
     return true;
 }
 
@@ -160,17 +171,32 @@ std::string numbers_json(const std::vector<Instant>& kept) {
     std::vector<std::uint32_t> times;
     std::vector<float> angles;
     std::vector<std::int16_t> points;
+    std::vector<std::int8_t> moments;
     for (const Instant& i : kept) {
         times.push_back(tick > 0 ? static_cast<std::uint32_t>(std::llround((i.t - begin) / tick)) : 0);
         for (const double value : {i.theta, i.cam_angle, i.force}) angles.push_back(static_cast<float>(value));
         for (const Vec2& p : i.points)
             for (const double value : {p.x, p.y})
                 points.push_back(static_cast<std::int16_t>(std::lround(value / quantum)));
+        for (const double share : i.moment)  // its root, as coloured
+            moments.push_back(static_cast<std::int8_t>(
+                std::lround(std::copysign(127 * std::sqrt(std::min(1.0, std::abs(share))), share))));
     }
     return fmt::format(
-        R"("instants":{},"stations":{},"begin":{:.17g},"tick":{:.17g},"quantum":{:.17g},"times":"{}","values":"{}","points":"{}")",
+        R"("instants":{},"stations":{},"begin":{:.17g},"tick":{:.17g},"quantum":{:.17g},"times":"{}","values":"{}","points":"{}","moments":"{}")",
         kept.size(), kept.front().points.size() - 1, begin, tick, quantum, base64(times), base64(angles),
-        base64(points));
+        base64(points), base64(moments));
+}
+
+// The scale of the moment's colours, as HTML.
+std::string moment_scale(const FilmContext& context) {
+    if (!(context.scales.moment > 0)) return {};
+    const std::string top = quantity(context.scales.moment, "N\u2009m");
+    std::vector<std::string> colors;
+    for (const Color& color : context.look.palette.moment) colors.push_back(hex(color));
+    return fmt::format("{}: −{} <i style=\"background: linear-gradient(90deg, {})\"></i> {}",
+                       context.look.translate("bending moment (√ scale)"), top.substr(0, top.find("\u00A0")),
+                       fmt::join(colors, ", "), top);
 }
 
 // The page with these texts in place of "@NAME@". One pass: a text that looks like a name stays as it is.
@@ -226,15 +252,16 @@ std::string html_page(const FilmSetup& setup) {
     const Palette& p = context.look.palette;
     const Materials body = materials(p);
     const std::string colors = fmt::format(
-        R"({{"paper":{},"ink":{},"muted":{},"faint":{},"grid":{},"motion":{},"contact":{},"cam":{},"hub":{},"pin":{},"bracket":{},"beam":{}}})",
+        R"({{"paper":{},"ink":{},"muted":{},"faint":{},"grid":{},"motion":{},"contact":{},"cam":{},"hub":{},"pin":{},"bracket":{},"moment":["{}"]}})",
         css(p.paper), css(p.ink), css(p.muted), css(p.faint), css(p.grid), css(p.motion), css(p.contact), css(body.cam),
-        css(body.housing), css(body.pin), css(body.bracket), css(p.moment[2]));
+        css(body.housing), css(body.pin), css(body.bracket), fmt::join(p.moment | std::views::transform(hex), "\",\""));
     const std::string data = fmt::format(
         R"({{"title":{},"factor":{:.9g},"tolerance":{:.9g},"length":{:.9g},"thickness":{:.9g},"hub":{:.9g},"arc":{:.9g},"force":{:.9g},)"
-        R"("degrees":{},"colors":{},"cam":{},"impacts":{},{}}})",
+        R"("degrees":{},"period":{:.9g},"colors":{},"cam":{},"impacts":{},{}}})",
         json_text(plain_text(setup.title)), context.scales.exaggeration, kPageTolerance * length, length, thickness,
-        hub_of_page(problem), arc_radius(problem), context.scales.arrow_force, setup.units.degrees, colors,
-        cam_json(context), impacts_json(context), numbers_json(thinned_instants(std::move(all), length)));
+        hub_of_page(problem), arc_radius(problem), context.scales.arrow_force, setup.units.degrees,
+        std::isfinite(context.scales.period) ? context.scales.period : 0, colors, cam_json(context),
+        impacts_json(context), numbers_json(thinned_instants(std::move(all), length)));
     const Lang lang = setup.view.lang;
     return filled(player_html(), {{"LANG", lang == Lang::en ? "en" : "zh"},
                                   {"MECHANISM", phrase(lang, "The mechanism")},
@@ -245,6 +272,7 @@ std::string html_page(const FilmSetup& setup) {
                                   {"SPEED", phrase(lang, "Speed")},
                                   {"ARROWS", phrase(lang, "Up and Down")},
                                   {"DEFLECTION", phrase(lang, "deflection")},
+                                  {"SCALE", moment_scale(context)},
                                   {"TITLE", setup.title.empty() ? "beamcam" : xml(plain_text(setup.title))},
                                   {"PAPER", hex(p.paper)},
                                   {"INK", hex(p.ink)},

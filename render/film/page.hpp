@@ -10,9 +10,10 @@
 namespace beamcam::render {
 
 // The setup's frames are the instants, increasing. Instants are omitted if linear interpolation between the stored ones
-// reproduces every point within `kPageTolerance` of the beam's length, every angle within the same number [rad], and
-// the force within `kPageForceTolerance` of the largest. The result depends only on the setup.
-constexpr double kPageTolerance = 1e-3, kPageForceTolerance = 2e-3;
+// reproduces every point within `kPageTolerance` of the beam's length, every angle within the same number [rad], the
+// force within `kPageForceTolerance` of the largest, and moments, which are colours, within `kPageMomentTolerance` of
+// their scale. The result depends only on the setup.
+constexpr double kPageTolerance = 1e-3, kPageForceTolerance = 2e-3, kPageMomentTolerance = 0.05;
 std::string html_page(const FilmSetup& setup);
 
 std::string json_text(std::string_view text);  // as a JSON string that may be embedded in HTML

@@ -159,6 +159,7 @@ void FilmContext::place_panels() {
     Shown shown = setup->view.shown();
     shown.title = shown.title && !setup->title.empty();
     shown.captions = !setup->callouts.empty();
+    shown.moment = scales.moment > 0;
     shown.warning = shown.warning && !setup->warning.empty();
     const int width = setup->width, height = setup->height;
     const int mechanisms = setup->comparison == Comparison::panels ? members() : 1;

@@ -44,7 +44,7 @@ class StripPanel final : public ChartPanel {
 // ---- a strip that shows one collision after the other --------------------------------------------
 
 // The channels during one collision, from shortly before its first touch at t₀. The chart stays until the next
-// collision begins; before the first one it shows the axes of the first one. All collisions share the axis of values.
+// collision begins; before the first one a film shows nothing. All collisions share the axis of values.
 // Collisions of compared motions that follow each other within three times their duration are one.
 class CollisionPanel final : public FilmPanel {
   public:
@@ -82,6 +82,7 @@ class CollisionPanel final : public FilmPanel {
         const double now = context_.clock.at(frame);
         const std::size_t which = shown(now);
         const Chart& chart = charts_.at(which);
+        if (content_.past_only && now - start(which) < chart.time().low) return;
         chart.draw_background(canvas);
         std::vector<double> readings;
         std::vector<Vec2> peaks;

@@ -11,7 +11,7 @@ namespace beamcam::render {
 namespace {
 
 constexpr double kBetweenReadings = 18;                                 // [design px]
-constexpr double kBetweenRows = 1, kLowestRow = 0.9, kAbovePeak = 0.2;  // in sizes of the numbers
+constexpr double kBetweenRows = 1, kLowestRow = 1.5, kAbovePeak = 0.5;  // in sizes of the numbers
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 void draw_all(Canvas& canvas, const std::vector<figure::Plot>& rows, const figure::Interval& part) {

@@ -13,7 +13,6 @@ struct Phrase {
 };
 constexpr Phrase kPhrases[] = {
     // films
-    {"contact force, trace (√ scale)", "接触力（轨迹，√ 标度）"},
     {"Contact close-up", "接触点放大"},
     {"Contact", "接触"},
     {"smoothed over {}", "按 {} 平滑"},

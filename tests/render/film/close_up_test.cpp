@@ -26,6 +26,20 @@ TEST(CloseUp, HasTwoMarksHoweverLow) {
     }
 }
 
+TEST(CloseUp, HeadingAndReadingHaveRoomBesideEachOther) {
+    for (const int width : {600, 800, 1080}) {
+        FilmSetup setup = test::flat_film({.duration = 0.1}, width, width);
+        for (sim::Pose& pose : setup.poses) pose.nearest->gap = -206e-6, pose.nearest->touching = true;
+        setup.layout = LayoutNode{.kind = LayoutNode::Kind::columns,
+                                  .children = {3, LayoutNode{.panel = {.kind = PanelKind::close_up}}}};
+        Film film(std::move(setup));
+        const std::vector<Box> texts = film.geometry(0).texts;
+        for (std::size_t i = 0; i < texts.size(); ++i)
+            for (std::size_t j = 0; j < i; ++j)
+                EXPECT_FALSE(texts[i].overlaps(texts[j])) << width << ": " << i << ", " << j;
+    }
+}
+
 // In the middle of the close-up the height of the face above the rim equals the gap. The plot extends from 1.35 of the
 // largest penetration below the rim to 1.9 above.
 TEST(CloseUp, TheDrawnGapIsTheSampledGap) {

@@ -30,7 +30,7 @@ class AnySize : public testing::TestWithParam<Size> {};
 
 std::vector<Box> parts(const Layout& l) {
     std::vector<Box> out;
-    for (const auto& part : {l.title, l.parameters, l.clock, l.scales, l.warning})
+    for (const auto& part : {l.title, l.parameters, l.clock, l.scale, l.warning})
         if (part) out.push_back(*part);
     for (const PanelSlot& p : l.panels) out.push_back(p.box);
     return out;
@@ -109,7 +109,7 @@ TEST(Layout, LettersHaveThreeSizes) {
 TEST(Layout, FullSizeShowsEverything) {
     const Layout l = standard_layout(1920, 1080, kAll);
     EXPECT_EQ(l.panels.size(), 4U);
-    EXPECT_TRUE(l.title && l.parameters && l.clock && l.scales && l.warning);
+    EXPECT_TRUE(l.title && l.parameters && l.clock && l.scale && l.warning);
     EXPECT_DOUBLE_EQ(l.unit, 1);
 }
 
@@ -123,7 +123,7 @@ TEST(Layout, TinyPicturesKeepTheMechanism) {
 TEST(Layout, WhatIsNotShownLeavesItsRoomToThePanels) {
     const Layout all = standard_layout(1920, 1080, kAll);
     const Layout none = standard_layout(1920, 1080, kAll, 1, {false, false, false, false});
-    EXPECT_FALSE(none.title || none.parameters || none.clock || none.scales || none.warning);
+    EXPECT_FALSE(none.title || none.parameters || none.clock || none.scale || none.warning);
     EXPECT_GT(none.panels.front().box.h, all.panels.front().box.h + 150);
     const Layout untitled = standard_layout(1920, 1080, kAll, 1, {.title = false});
     EXPECT_NEAR(untitled.panels.front().box.y, all.panels.front().box.y - 64, 1);

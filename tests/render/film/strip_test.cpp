@@ -215,6 +215,27 @@ TEST(CollisionStrip, ShowsTheWholeCollision) {
     }
 }
 
+// The axes of a collision would be empty before it.
+TEST(CollisionStrip, AppearsWithTheFirstCollision) {
+    FilmSetup setup = test::flat_film({.duration = 1}, 1280, 720);
+    sim::Impact impact;
+    impact.t_start = 0.3, impact.t_end = 0.32;
+    setup.impacts = {impact};
+    PanelSpec by_collision = strip(ChannelKind::contact_force);
+    by_collision.by_collision = true;
+    setup.layout = leaf(by_collision);
+    Film film(std::move(setup));
+    const auto has_texts = [&](int frame) {
+        const FrameGeometry g = film.geometry(frame);
+        const Box box = g.layout.first(PanelKind::strip)->box;
+        return std::ranges::any_of(g.texts, [&](const Box& text) { return text.overlaps(box); });
+    };
+    EXPECT_FALSE(has_texts(0));
+    EXPECT_FALSE(has_texts(17));
+    EXPECT_TRUE(has_texts(18));
+    EXPECT_TRUE(has_texts(59));
+}
+
 // A deflection of the size of rounding errors is drawn as zero.
 TEST(Strips, RoundingOfALengthIsZero) {
     const auto picture = [](double size) {

@@ -11,6 +11,7 @@
 
 #include "render/film/film.hpp"
 #include "render/mechanism/exaggeration.hpp"
+#include "render/plot/ticks.hpp"
 #include "tests/scenes/outputs/filmed.hpp"
 #include "tests/scenes/support.hpp"
 
@@ -22,6 +23,7 @@ using ::testing::HasSubstr, ::testing::Not;
 render::FilmSetup setup_until(double end, double rate) {
     render::FilmSetup setup = testing::filmed_until(end, rate);
     setup.title = "a </script> & \"b\"";
+    setup.fps = rate;
     return setup;
 }
 
@@ -60,16 +62,29 @@ TEST(Page, ATitleMayLookLikeAPlaceOfThePage) {
     }
 }
 
+// The end of the scale: 1, 2 or 5 times a power of ten.
+double largest_moment(const render::FilmSetup& setup) {
+    double largest = 0;
+    for (const sim::Pose& pose : setup.poses)
+        for (const double moment : pose.moment) largest = std::max(largest, std::abs(moment));
+    return render::round_up_125(largest);
+}
+
 TEST(Page, ItsPosesAgreeWithTheMotionToTheToleranceThatItStates) {
     const render::FilmSetup setup = setup_until(0.6, 1000);
     const nlohmann::json d = data_of(render::html_page(setup));
     const auto times = decoded<std::uint32_t>(d["times"]);
     const auto values = decoded<float>(d["values"]);
     const auto points = decoded<std::int16_t>(d["points"]);
+    const auto roots = decoded<std::int8_t>(d["moments"]);
     const auto n = d["instants"].get<std::size_t>(), m = d["stations"].get<std::size_t>();
     ASSERT_EQ(times.size(), n);
     ASSERT_EQ(values.size(), 3 * n);
     ASSERT_EQ(points.size(), 2 * (m + 1) * n);
+    ASSERT_EQ(roots.size(), m * n);
+    std::vector<double> moments;
+    for (const std::int8_t root : roots) moments.push_back(root * std::abs(root) / (127.0 * 127));
+    const double scale = largest_moment(setup);
     EXPECT_LT(n, setup.poses.size());
     const double tick = d["tick"], quantum = d["quantum"], tolerance = d["tolerance"];
     EXPECT_EQ(tolerance, 1e-3);
@@ -90,6 +105,8 @@ TEST(Page, ItsPosesAgreeWithTheMotionToTheToleranceThatItStates) {
             const sim::Vec2 found{quantum * mix(points, 2 * (m + 1), 2 * i),
                                   quantum * mix(points, 2 * (m + 1), 2 * i + 1)};
             EXPECT_LE(norm(found - middle), tolerance + quantum) << pose.t << " s, station " << i;
+            EXPECT_NEAR(mix(moments, m, i), pose.moment[at] / scale, render::kPageMomentTolerance + 2 / 127.0)
+                << pose.t;
         }
     }
 }
