@@ -173,8 +173,8 @@ TEST(Presets, AreListedWithTheFigures) {
     const Folder folder;
     folder.write("s.json", "{}");
     const std::string list = shell(folder, "$BEAMCAM figure s.json --list").out;
-    for (const char* name :
-         {"series", "schematic", "angle", "tip-vibration", "energy", "phase", "collision", "apex-modes", "models"})
+    for (const char* name : {"series", "schematic", "angle", "speeds", "tip-vibration", "energy", "phase", "collision",
+                             "apex-modes", "models"})
         EXPECT_THAT("\n" + list, HasSubstr(fmt::format("\n{:<18} ", name)));
     EXPECT_EQ(shell(folder, "$BEAMCAM figure s.json").out, list);
     EXPECT_THAT(list, Not(HasSubstr("not for this scene: the hub")));

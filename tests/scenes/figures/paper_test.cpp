@@ -230,7 +230,7 @@ TEST(GoldenFigures, OfTheGalleryAreRedrawn) {
 }
 
 TEST(GoldenFigures, OfRepeatedImpactsAreRedrawnWhereTheyAreReproducible) {
-    for (const char* figure : {"contact-places", "phase"}) {
+    for (const char* figure : {"speeds", "contact-places", "phase"}) {
         const std::string picture = fmt::format("scenes/golden/{}.png", figure);
         expect_golden({"impacts", figure, picture.c_str(), "--dpi 100 --set time.end=1.2"});
     }
