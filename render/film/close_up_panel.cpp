@@ -179,7 +179,7 @@ class CloseUpPanel final : public FilmPanel {
     }
 
     void forces(Canvas& canvas, const sim::Nearest& near) const {
-        if (!near.touching || !(near.force > 0) || !(context_.scales.force > 0)) return;
+        if (!near.touching || !(near.force > 0)) return;
         const Palette& p = context_.look.palette;
         const double u = context_.look.unit, longest = 0.55 * area_.h;
         const Vec2 foot = at(0, near.gap / 2);

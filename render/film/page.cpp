@@ -137,7 +137,7 @@ std::string trace_json(const FilmContext& context) {
     for (const Place& p : places)
         out.push_back(fmt::format(
             "[{:.6g},{},{}]", p.t, p.at,
-            css(force_color(context.look.palette, std::sqrt(std::min(1.0, p.force / context.scales.force))))));
+            css(force_color(context.look.palette, std::sqrt(std::min(1.0, p.force / context.scales.largest_force))))));
     return fmt::format("[{}]", fmt::join(out, ","));
 }
 

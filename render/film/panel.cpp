@@ -21,8 +21,6 @@ using sim::Channel;
 using sim::ChannelKind;
 using sim::Pose;
 
-bool is_impulsive(const Motion& motion) { return motion.problem.contact.model == sim::ContactModel::restitution; }
-
 bool has_force(const Motion& motion) {
     const auto* force = column(motion.chart, {ChannelKind::contact_force, 0});
     return force && std::ranges::any_of(*force, [](double v) { return v > 0; });
@@ -258,7 +256,6 @@ double first_period(const sim::Problem& problem) {
 
 void FilmContext::choose_scales() {
     double moment = 0, force = 0;
-    bool colored = false;  // traces have a force
     scales.exaggeration = std::numeric_limits<double>::infinity();
     for (int m = 0; m < members(); ++m) {
         const Motion& one = motion(m);
@@ -295,14 +292,12 @@ void FilmContext::choose_scales() {
         for (const sim::Impact& i : motion(m).impacts) own = std::max(own, i.force_peak.value_or(0));
         force = std::max(force, own);
         if (own > 0) smallest = std::min(smallest, own);
-        colored = colored || !is_impulsive(motion(m)) || samples[static_cast<std::size_t>(m)].size() > 1;
     }
     scales.force_unit = prefix_for(std::min(smallest, force));
     if (force >= 1e4 * scales.force_unit.factor) scales.force_unit = prefix_for(force);
     for (int k = 0; k < frames() && moment > 0; ++k)
         if (moment_share(k) > 0) scales.moment = round_up_125(moment);
     scales.largest_force = force;
-    if (force > 0 && colored) scales.force = round_up_125(force);
 }
 
 const std::vector<double>* column(const sim::Table& table, Channel channel) {
@@ -335,11 +330,11 @@ void draw_heading(Canvas& canvas, const FilmContext& context, const Box& box, co
 void stroke_places(Canvas& canvas, const FilmContext& context, const std::vector<float>& places, double width,
                    const std::function<void(std::size_t)>& path, const std::function<Color(double)>& color) {
     constexpr int kShades = 12;
-    if (!(context.scales.force > 0)) return;
+    if (!(context.scales.largest_force > 0)) return;
     std::array<std::vector<std::size_t>, kShades> shade;
     for (std::size_t i = 0; i < places.size(); ++i)
         if (places[i] > 0) {
-            const double share = std::sqrt(std::min(1.0, double(places[i]) / context.scales.force));
+            const double share = std::sqrt(std::min(1.0, double(places[i]) / context.scales.largest_force));
             shade[static_cast<std::size_t>(std::min(kShades - 1.0, std::floor(share * kShades)))].push_back(i);
         }
     for (int k = 0; k < kShades; ++k) {

@@ -31,10 +31,9 @@ struct FilmClock {
 // The scales that all motions of a film share.
 struct FilmScales {
     double exaggeration = 1;   // of deflection
-    double largest_force = 0;  // of the film [N]
+    double largest_force = 0;  // of the film: end of the trace's colours [N]
     Prefix force_unit{"",
                       1};    // of all forces: suits the smallest of the motions' largest ones, if all have four digits
-    double force = 0;        // end of the colour scale: the largest force, rounded up; 0: no force [N]
     double arrow_force = 0;  // largest force of all frames, that of the longest arrow [N]
     double moment = 0;       // end of the colour scale; 0: no colouring [N m]
     double period = std::numeric_limits<double>::infinity();  // of the fastest motion's first vibration [s]

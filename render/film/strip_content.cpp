@@ -101,38 +101,22 @@ Color curve_color(const FilmContext& context, Channel channel, std::size_t i, in
     return energy_color(context.look.palette, channel.kind).value_or(series_color(context.look.palette, i));
 }
 
-// Of places of contact where no force colors them.
-Color place_color(const FilmContext& context, int member) {
-    return context.members() > 1 ? context.member_color(member) : context.look.palette.contact;
-}
-
-// The places of impulsive impacts, which last no time and have no force that could color them.
-void add_impulses(const FilmContext& context, int member, const Range& shown, ChartContent& c, Extent& places) {
-    if (context.motion(member).problem.contact.model != sim::ContactModel::restitution) return;
-    const Palette& p = context.look.palette;
-    const Color color = place_color(context, member);
-    for (const sim::Impact& impact : context.motion(member).impacts) {
-        if (impact.t_start < c.time().low || impact.t_start > c.time().high) continue;
-        if (impact.t_start >= shown.low && impact.t_start <= shown.high) places.add({&impact.x, 1});
-        c.panel.dots.push_back({impact.t_start, impact.x, color, p.tint(color, kDotShare)});
-    }
-}
-
-// The places of contact as dots; returns the range of those that are shown.
+// The places of contact as dots, also of impulsive impacts, which last no time; returns the range of those that are
+// shown.
 Range add_places(const FilmContext& context, const Range& shown, ChartContent& c) {
     Extent places;
     const Palette& p = context.look.palette;
     for (int m = 0; m < context.members(); ++m) {
-        for (const TraceSample& s : context.samples[static_cast<std::size_t>(m)]) {
-            if (s.t >= shown.low && s.t <= shown.high) places.add({&s.x, 1});
-            if (s.t < c.time().low || s.t > c.time().high) continue;
-            const Color color = context.members() > 1
-                                    ? context.member_color(m)
-                                    : force_color(p, std::sqrt(std::min(1.0, s.force / context.scales.force)));
-            c.panel.dots.push_back({s.t, s.x, color, p.tint(place_color(context, m), kDotShare)});
-        }
+        const Color color = context.members() > 1 ? context.member_color(m) : p.contact;
+        const auto add = [&](double t, const double& x) {
+            if (t < c.time().low || t > c.time().high) return;
+            if (t >= shown.low && t <= shown.high) places.add({&x, 1});
+            c.panel.dots.push_back({t, x, color, p.tint(color, kDotShare)});
+        };
+        for (const TraceSample& s : context.samples[static_cast<std::size_t>(m)]) add(s.t, s.x);
+        if (context.motion(m).problem.contact.model == sim::ContactModel::restitution)
+            for (const sim::Impact& impact : context.motion(m).impacts) add(impact.t_start, impact.x);
     }
-    for (int m = 0; m < context.members(); ++m) add_impulses(context, m, shown, c, places);
     const double length = context.setup->problem.beam.length;
     const double around = std::max(0.05 * (places.high - places.low), 2e-4 * length);
     return places.any ? Range{places.low - around, places.high + around} : Range{0, length};
