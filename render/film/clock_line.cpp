@@ -70,7 +70,10 @@ double ClockLine::measure(const Canvas& canvas) {
 }
 
 TextStyle ClockLine::clock_style() const {
-    return {.size = size_, .color = context_.look.palette.ink, .weight = Weight::semibold, .tabular = true};
+    return {.size = size_,
+            .color = context_.look.palette.ink,
+            .weight = Weight::semibold,
+            .tabular = context_.frames() > 1};
 }
 
 // On an unknown background pills are opaque.
