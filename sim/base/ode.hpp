@@ -6,7 +6,7 @@
 namespace beamcam::sim {
 
 // y′ = f(t, y). Error control sees the first `controlled` components; the rest (work and impulse integrals) never
-// change a step.
+// change a step, unless there is nothing else to compute.
 struct Ode {
     virtual ~Ode() = default;
     virtual void rhs(double t, const double* y, double* dy) = 0;

@@ -38,8 +38,9 @@ System::System(const Problem& problem)
       geometry_(problem, *model_, cam_),
       n_(model_->size()),
       offset_(contact_offset(problem)) {
-    controlled = 2 * n_ + (has_bristle() ? 1 : 0);
-    size = controlled + kLedgerSize;
+    ledger_at = 2 * n_ + (has_bristle() ? 1 : 0);
+    size = ledger_at + kLedgerSize;
+    controlled = is_given() ? size : ledger_at;
     for (int i = 0; i + 1 < n_; ++i) highest_frequency_ = std::max(highest_frequency_, model_->frequency(i));
     baumgarte_rate_ =
         n_ > 1 ? kDecayOfVibration * model_->frequency(0)
@@ -48,6 +49,7 @@ System::System(const Problem& problem)
 
 System::System(const System& other)
     : Ode(other),
+      ledger_at(other.ledger_at),
       problem_(other.problem_),
       model_(other.model_->clone()),
       drive_(other.drive_),
@@ -123,7 +125,7 @@ void System::rhs(double t, const double* y, double* dy) {
     set_state(t, y);
     double* acc = dy + n_;
     std::fill(dy, dy + size, 0.0);
-    double* ledger = dy + controlled;
+    double* ledger = dy + ledger_at;
     if (!assemble(acc)) {
         inertia_lost_ = true;
         std::fill(dy, dy + size, std::numeric_limits<double>::quiet_NaN());
@@ -243,7 +245,7 @@ bool System::generalized_force(double t, const ContactState& c, double normal, d
 }
 
 System::EnergyBalance System::balance_without_beam(const double* y, const ContactState& c) const {
-    const double* ledger = y + controlled;
+    const double* ledger = y + ledger_at;
     double normal = 0, bristle_energy = 0;
     if (phase_.touching) {
         normal = phase_.held ? 0 : law_.at(c.disc.radius).stored_energy(-c.gap);

@@ -3,7 +3,7 @@
 // MODEL.md §§7–10.
 //
 // State y: ξ (N+1), ξ̇ (N+1), bristle deflection z (stick-slip friction only); then the integrals of the energy balance,
-// which take no part in error control.
+// which take no part in error control, unless the motion is given.
 #pragma once
 
 #include <memory>
@@ -99,6 +99,8 @@ class System final : public Ode {
     double current_acceleration(double t, const ContactState& c, double* acc);
 
     double highest_frequency() const { return highest_frequency_; }
+    // At which the outline of the cam comes back [rad/s]; zero for a disc that turns about its centre.
+    double cam_rate() const { return cam_.shape().largest_slope() > 0 ? std::fabs(cam_.speed()) : 0; }
     // The largest damping ratio of a mode.
     double damping_ratio() const;
     double baumgarte_rate() const { return baumgarte_rate_; }  // of sustained contact (S45) [1/s]
@@ -117,6 +119,10 @@ class System final : public Ode {
     // Acceleration of the gap without contact force [m/s²]; negative: the beam presses on the cam.
     double free_gap_acceleration(double t, const double* y);
 
+    // The motion is a given function of time: that of a rigid beam on a prescribed hub.
+    bool is_given() const { return n_ == 1 && drive_.prescribed(); }
+
+    int ledger_at = 0;  // where the integrals begin in a state
     long gap_evaluations = 0;
 
   private:

@@ -50,7 +50,7 @@ void System::apply_impact(double t, double* y, const ContactState& c, const Impa
     require_inertia(f);
     contact_rows(c, jn, jt);
     for (int i = 0; i < n_; ++i) jump[i] = impact.impulse_n * jn[i] + impact.impulse_t * jt[i];
-    double* ledger = y + controlled;
+    double* ledger = y + ledger_at;
     if (drive_.prescribed())
         ledger[kWorkDrive] += model_->solve_held(jump, 0) * drive_.motion(t).rate;
     else

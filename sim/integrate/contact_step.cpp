@@ -23,9 +23,9 @@ constexpr double kTwoRoundings = 4e-16;  // of the beam's length, and of the way
 // at the start and up to 1 at the nodes: rounding of a gap's rate becomes such a constraint force.
 constexpr double kRoughestRate = 136;
 // Where the damping or friction of a contact decays by more than kFastDecay within a step, an error of a rate becomes a
-// force that no polynomial follows: the iteration may leave only a share of kContactShare. So it is from kSteadyDecay
-// on where the force varies by less than kSteadyForce: in a lasting contact it is the only error. Contractions vary
-// from sweep to sweep; kSlowestContraction is the poorest after a good one.
+// force that no polynomial follows, of friction as many times larger: the iteration may leave only a share of
+// kContactShare. So it is from kSteadyDecay on where the force varies by less than kSteadyForce: in a lasting contact
+// it is the only error. Contractions vary from sweep to sweep; kSlowestContraction is the poorest after a good one.
 constexpr double kFastDecay = 5, kSteadyDecay = 2, kSteadyForce = 1e-2, kSlowestContraction = 0.03;
 constexpr double kDeepest = 0.5;  // of the cam's radius: beyond, the contact leaves its geometry
 
@@ -83,7 +83,8 @@ double ContactStep::solve(const StepTable& nodal) {
     for (int sweep = 0; sweep < most && status == FixedPoint::Status::going; ++sweep) {
         if (!improve(table, sweep == 0 ? kFootCorrections : 1)) return kNoSolution;
         if (held_ || decays_ > (is_steady(load.force) ? kSteadyDecay : kFastDecay))
-            iteration.demand(kShareOfIteration / kContactShare, kSlowestContraction);
+            iteration.demand(kShareOfIteration / kContactShare / std::max(1.0, friction_step_.decay()),
+                             kSlowestContraction);
         change = step_.update_forcing(table, &load);
         // The forces of a constraint follow the other forcing one sweep later: every second change shows the
         // contraction.
@@ -244,7 +245,8 @@ void ContactStep::linearize(const StepTable& table) {
 double ContactStep::error(double h) {
     const double smooth = step_.forcing_error(h, &load);
     double force = quadrature_error(load.force, force_rounding_);
-    if (load.rough) force = std::max(quadrature_error(load.friction, force_rounding_), force);
+    if (load.rough)
+        force = std::max(quadrature_error(load.friction, force_rounding_) * friction_step_.lasting_share(), force);
     if (load.rough && !friction_.bristle)
         force = std::max(largest(load.force) * friction_step_.missed(start.slip, load.contact.slip, end.slip), force);
     if (friction_.bristle)  // of the deflection at the end, by its force

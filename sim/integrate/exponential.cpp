@@ -310,6 +310,7 @@ std::unique_ptr<Integrator> make_exponential(System& system, double rtol, double
 }
 
 Method used_method(Method wanted, System& system) {
+    if (system.is_given()) return Method::rk8;
     if (wanted != Method::automatic || ModalForm::exists(system)) return wanted;
     return system.damping_ratio() > kStiff ? Method::cvode_bdf : Method::rk8;
 }

@@ -37,6 +37,9 @@ bool FrictionStep::linearize(const Lanes& normal, const Lanes& friction, const L
         }
     }
     decay_ = law_.bristle ? 0 : largest(resistance * mobility);
+    double least = resistance[0];
+    for (int k = 1; k < kNodes; ++k) least = std::min(least, resistance[k]);
+    least_decay_ = law_.bristle ? 0 : least * largest(mobility);
     const auto moved = law_.bristle ? &NodalCompliance::value : &NodalCompliance::rate;
     NodalMatrix matrix;
     std::array<Lanes, kNodes + 1> right;  // of the change with the normal force, and of the change without

@@ -3,6 +3,8 @@
 // MODEL.md §12.
 #pragma once
 
+#include <algorithm>
+
 #include "sim/contact/contact_law.hpp"
 #include "sim/integrate/collocation.hpp"
 #include "sim/integrate/nodal_compliance.hpp"
@@ -29,6 +31,8 @@ class FrictionStep {
     Lanes gap_rate_ahead() const { return across_.rate * ahead_; }
     // Of a slip by Coulomb friction within the step [–].
     double decay() const { return decay_; }
+    // Of an error of the impulse of friction: the rest is undone by the slip that it causes.
+    double lasting_share() const { return 1 / std::max(1.0, least_decay_); }
     // Of Coulomb friction, per normal force: what the polynomial through the nodes misses at the ends of the step,
     // beyond its last coefficients, up to the next node. A slip that changes its sign there changes it at no node.
     double missed(double start_slip, const Lanes& slip, double end_slip) const;
@@ -44,7 +48,7 @@ class FrictionStep {
 
     const FrictionLaw& law_;
     FrictionState state_ = FrictionState::stick;
-    double start_ = 0, h_ = 0, decay_ = 0;
+    double start_ = 0, h_ = 0, decay_ = 0, least_decay_ = 0;
     Lanes nodes_{};
     NodalCompliance frictionless_, across_, along_, gap_;
     NodalMatrix by_normal_;  // friction falls by, with the normal force

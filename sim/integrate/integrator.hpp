@@ -103,7 +103,7 @@ class Integrator {
 // Reads the phase of the system at every `start`. Only for systems with a ModalForm.
 std::unique_ptr<Integrator> make_exponential(System& system, double rtol, double atol);
 // The wanted method; but what `auto` means for systems without a ModalForm: `rk8`, or CVODE's BDF where a mode is
-// damped beyond the critical.
+// damped beyond the critical. For the integrals of a given motion, `rk8`.
 Method used_method(Method wanted, System& system);
 std::unique_ptr<Integrator> make_rk8(Ode& ode, double rtol, double atol);
 // cvode-adams or cvode-bdf.

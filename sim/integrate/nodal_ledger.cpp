@@ -10,7 +10,7 @@ void NodalStep::finish_ledger(const ContactLoad* load) {
     ExponentialSegment& s = segment;
     s.ledger_changes = load || form->damped || form->prescribed || system.drive().has_torque() || system.spring();
     if (!s.ledger_changes) {
-        std::copy_n(s.ledger0, kLedgerSize, s.end.begin() + system.controlled);
+        std::copy_n(s.ledger0, kLedgerSize, s.end.begin() + system.ledger_at);
         return;
     }
     for (Lanes& rate : s.rate) rate = Lanes{};

@@ -37,7 +37,7 @@ void NodalStep::begin(double t) {
     const double* y = start_.data();
     std::copy_n(y + 1, n, s.q0.begin());
     std::copy_n(y + 2 + n, n, s.v0.begin());
-    std::copy_n(s.end.data() + system.controlled, kLedgerSize, s.ledger0);
+    std::copy_n(s.end.data() + system.ledger_at, kLedgerSize, s.ledger0);
     s.bristle0 = system.bristle(s.end.data());
     s.theta0 = y[0];
     theta_dot0 = y[1 + n];
@@ -260,15 +260,6 @@ void NodalStep::set_scales(const double* a, const double* b) {
     scale_theta = rtol_ * std::max(std::fabs(a[0]), std::fabs(b[0])) + atol_;
 }
 
-// The error of the drive's work against gravity, the only one of a rigid beam whose angle is given. It adds up from
-// step to step, so it is kept to a share of the tolerance, as in contact.
-double NodalStep::drive_error(double h) const {
-    const ExponentialSegment& s = segment;
-    const double weight = form->gravity * form->S, rate = largest(s.theta_dot);
-    return kContactShare * quadrature_error(weight * cos * s.theta_dot) * h /
-           (rtol_ * (std::fabs(weight) + form->J * rate * rate) + atol_);
-}
-
 // A vibration that decays before the first node changes the forcing at the start only. What the polynomial through the
 // nodal values misses there, beyond its last coefficients, lasts up to the first node. Steps in contact begin short.
 double NodalStep::start_error(double h) const {
@@ -299,7 +290,7 @@ double NodalStep::forcing_error(double h, const ContactLoad* load) {
         errors += e * e;
     }
     const double modal = std::max(std::sqrt(errors) / scale_modes, form->damped && !load ? start_error(h) : 0);
-    if (form->prescribed) return std::max(modal, drive_error(h));
+    if (form->prescribed) return modal;
     const double torque_error = interpolation_error(load ? s.p_dot - load->torque() : s.p_dot) * h / form->J;
     // The contact turns Θ̇ by a polynomial of the degree of its force, whose error is that of the force.
     const double turn = load ? quadrature_error(s.theta_dot) : interpolation_error(s.theta_dot);
@@ -308,7 +299,7 @@ double NodalStep::forcing_error(double h, const ContactLoad* load) {
 
 void NodalStep::finish(const ContactLoad* load) {
     ExponentialSegment& s = segment;
-    std::copy_n(next.begin(), system.controlled, s.end.begin());
+    std::copy_n(next.begin(), system.ledger_at, s.end.begin());
     finish_ledger(load);
     form->to_coordinates(s.end.data());
 }

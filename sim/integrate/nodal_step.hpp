@@ -78,7 +78,6 @@ struct NodalStep {
     void evaluate_angle();
     void advance_angle(const Lanes& to);
     double set_angle(double h);
-    double drive_error(double h) const;
     void place_start_forcing();
     double start_error(double h) const;
     double turn_hub(double h, const Lanes& inertia);

@@ -38,7 +38,7 @@ class ChannelEvaluator {
     const BeamLoads& loads();
     double hub_acceleration();  // θ̈
     double spring_energy();
-    double ledger(Ledger entry) const { return y_[static_cast<std::size_t>(system_.controlled + entry)]; }
+    double ledger(Ledger entry) const { return y_[static_cast<std::size_t>(system_.ledger_at + entry)]; }
     double component(int index, int first) const;
     double hub_angle();
     double tip(ChannelKind kind);

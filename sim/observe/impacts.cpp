@@ -14,7 +14,7 @@ std::optional<double> restitution(double v_n_before, double v_n_after) {
 }  // namespace
 
 void ImpactRecorder::touch(double t, const double* y, const ContactState& c) {
-    const double* ledger = y + evaluator_.system().controlled;
+    const double* ledger = y + evaluator_.system().ledger_at;
     open_ = true;
     lost_at_touch_ = ledger[kNormalWork] + ledger[kFrictionWork];
     impulse_n_at_touch_ = ledger[kImpulseN];
@@ -81,7 +81,7 @@ void ImpactRecorder::remember(double t, Initial& initial) const {
 void ImpactRecorder::settle(const double* y) {
     Impact& impact = result_.impacts.back();
     Collision& collision = result_.collisions.back();
-    const double* ledger = y + evaluator_.system().controlled;
+    const double* ledger = y + evaluator_.system().ledger_at;
     impact.impulse_n = ledger[kImpulseN] - impulse_n_at_touch_;
     impact.impulse_t = ledger[kImpulseT] - impulse_t_at_touch_;
     impact.energy_lost = ledger[kNormalWork] + ledger[kFrictionWork] - lost_at_touch_;

@@ -129,7 +129,7 @@ void StepSamples::sample_part(const Instants& part, const NeedsMore& needs_more,
             if (!of.only_ends && of.stray > 0 && needs_more(c, least, high, of.stray)) sampled_.push_back(c);
         }
         if (sampled_.empty()) continue;
-        if (frequency < 0) frequency = fastest(part);
+        if (frequency < 0) frequency = std::max(fastest(part), evaluator_.system().cam_rate());
         const bool squared =
             std::ranges::any_of(sampled_, [&](std::size_t c) { return traits(channels_[c].kind).squared; });
         const double length = part[k + 1] - part[k], rate = squared ? 2 * frequency : frequency;

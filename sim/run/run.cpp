@@ -15,6 +15,8 @@ namespace {
 
 // The share of the tolerance for the local errors of `auto`: the sum over many impacts stays within ten times rtol.
 constexpr double kLocalShare = 1.0 / 3;
+// The errors of integrals of a given motion add up.
+constexpr double kShareOfSums = 0.03;
 constexpr double kLongStep = 1e3;  // [rad] of the fastest vibration: after such a step `progress` is called
 // Attempted steps at the first projection: chatter may take some thousands.
 constexpr long kFirstProjection = 20000;
@@ -32,6 +34,7 @@ constexpr int kMaxIdleEvents = 50;          // at one instant: then the run stop
 std::unique_ptr<Integrator> make_integrator(const Solver& solver, Method method, System& system) {
     double share = solver.method == Method::automatic ? kLocalShare : 1;
     if (method == Method::cvode_bdf && method != solver.method) share *= kShareOfBdf;
+    if (system.is_given()) share *= kShareOfSums;
     const double rtol = share * solver.rtol, atol = share * solver.atol;
     switch (method) {
         case Method::automatic:

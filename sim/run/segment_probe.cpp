@@ -43,7 +43,7 @@ int SegmentProbe::pieces_by_travel(const Segment& segment, const Range& range) {
     const double half = 0.5 * (segment.t1 - segment.t0);
     const double travel = 2 * (system.gap_bound().travel(range.spread.data()) +
                                half * std::fabs(system.cam().speed()) * shape.largest_slope());
-    return limited(travel / (0.5 * shape.inner_radius()));
+    return limited(std::max(travel / (0.5 * shape.inner_radius()), 2 * half * system.cam_rate()));
 }
 
 int SegmentProbe::limited(double pieces) {

@@ -37,7 +37,7 @@ class SegmentProbe {
     };
     Range range(const Segment& segment);
     // Subintervals in which the beam moves by at most half the radius of a disc within the cam, so that it cannot pass
-    // the cam unnoticed.
+    // the cam unnoticed, and in which an eccentric cam turns by at most a radian.
     int pieces_by_travel(const Segment& segment, const Range& range);
     int limited(double pieces);
     double gap_rounding() const { return kGapRounding * system.problem().beam.length; }

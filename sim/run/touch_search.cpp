@@ -158,9 +158,10 @@ std::optional<double> TouchSearch::advance(const Segment& segment, double t, Con
     return by_resolving(segment);
 }
 
-// Subintervals resolve the fastest vibration.
+// Subintervals resolve the fastest vibration and the turning of the cam.
 std::optional<double> TouchSearch::by_resolving(const Segment& segment) {
-    const double turns = (segment.t1 - segment.t0) * probe_.system.highest_frequency();
+    const double fastest = std::max(probe_.system.highest_frequency(), probe_.system.cam_rate());
+    const double turns = (segment.t1 - segment.t0) * fastest;
     return by_pieces(segment, segment.t1, std::max(kMaxPieces, probe_.limited(turns)));
 }
 

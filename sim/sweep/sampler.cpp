@@ -225,7 +225,7 @@ InitialState carried(const Problem& problem, const InitialState& end) {
     System system(problem);
     InitialState start = end;
     start.y.assign(static_cast<std::size_t>(system.size), 0.0);
-    std::copy_n(end.y.begin(), std::min(end.y.size(), static_cast<std::size_t>(system.controlled)), start.y.begin());
+    std::copy_n(end.y.begin(), std::min(end.y.size(), static_cast<std::size_t>(system.ledger_at)), start.y.begin());
     start.phase.gap_offset = 0;
     if (!problem.cam || is_prescribed(problem.hub.drive)) return start;
     const bool pressed_in = start.phase.touching && !start.phase.held;

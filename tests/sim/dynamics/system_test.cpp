@@ -181,7 +181,7 @@ TEST_P(ContactTest, PowerOnTheBeamIsWorkOfTheCamLessWhatTheContactTakes) {
             power += (jx[k] * f.x + jy[k] * f.y + system.offset() * c.friction * jchi[k]) *
                      y[static_cast<std::size_t>(n + i)];
         }
-        const double* ledger = dy.data() + system.controlled;
+        const double* ledger = dy.data() + system.ledger_at;
         const double size = c.force * (std::fabs(c.gap_rate) + 1) + std::fabs(c.friction) * (std::fabs(c.slip) + 1);
         EXPECT_GT(c.force, 0);
         EXPECT_NEAR(power, ledger[kWorkCam] - ledger[kNormalWork] - ledger[kFrictionWork], 1e-13 * size);

@@ -253,6 +253,14 @@ TEST(FrictionStep, CreepsInStepsThatDoNotFallWithTheSlipSpeed) {
     }
 }
 
+TEST(FrictionStep, CreepsInFewStepsAtRestOnAThickBeam) {
+    for (const double slip_speed : {1e-6, 1e-7, 1e-8}) {
+        Problem p = pressed(slip_speed, ContactModel::compliant);
+        p.initial.shape = InitialShape::resting;
+        EXPECT_LT(run(p, 0.3).counters.steps, 2000) << slip_speed;
+    }
+}
+
 TEST(FrictionStep, SlidesAndCreepsAsByTheRungeKuttaMethod) {
     Problem p = pressed(1e-5, ContactModel::compliant);
     p.cam->speed = 3;

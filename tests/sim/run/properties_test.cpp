@@ -377,7 +377,7 @@ TEST_P(PropertyOfProblems, AFlexibleFlightStartedAgainInsideAStepGoesOnTheSame) 
         const std::vector<double> whole = go(*make(), 0, start.y, kEnd);
         const std::vector<double> half = go(*make(), 0, start.y, 0.37 * kEnd);
         const std::vector<double> rest = go(*make(), 0.37 * kEnd, half, kEnd);
-        for (int i = 0; i < system.controlled; ++i) {
+        for (int i = 0; i < system.ledger_at; ++i) {
             const auto k = static_cast<std::size_t>(i);
             if (auto wrong = differ("component " + std::to_string(i), rest[k], whole[k],
                                     100 * (p.solver.rtol * std::max(1.0, std::fabs(whole[k])) + p.solver.atol)))
