@@ -70,7 +70,7 @@ double ContactStep::solve(const StepTable& nodal) {
     const double h = nodal.h;
     if (held_ && projected_.h != h) projected_.build_projected(form_.oscillators, nodal);
     const StepTable& table = held_ ? projected_ : nodal;
-    step_.begin_attempt(h);
+    step_.begin_attempt(nodal);
     linearize(table);
     // The feet of the last attempt are the first guess, unless they left the expansion.
     for (int k = 0; k < kNodes; ++k)

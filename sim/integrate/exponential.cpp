@@ -34,7 +34,7 @@ constexpr long kFirstRetry = 32;  // steps of the other method before the next t
 
 // Solves for the nodal forcing. Returns the error in units of the tolerance, kNoSolution if the iteration fails.
 double solve_flight(NodalStep& step, const StepTable& table) {
-    step.begin_attempt(table.h);
+    step.begin_attempt(table);
     step.propagate_unforced(table);
     FixedPoint iteration(kFlightRounding, kStalled, kFlightPatience);
     auto status = FixedPoint::Status::going;

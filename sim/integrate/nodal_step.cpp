@@ -104,7 +104,8 @@ void NodalStep::arrive(const StepTable& table) {
     }
 }
 
-void NodalStep::begin_attempt(double h) {
+void NodalStep::begin_attempt(const StepTable& table) {
+    const double h = table.h;
     const Collocation& gauss = Collocation::get();
     ExponentialSegment& s = segment;
     s.h = h;
@@ -131,7 +132,8 @@ void NodalStep::begin_attempt(double h) {
         s.q[i] = Lanes{} + s.q0[i];
         s.v[i] = Lanes{} + s.v0[i];
     }
-    place_torque();
+    torque = torque_by_law();
+    if (system.spring()) place_spring(table);
     frame_angle_ = theta;
     evaluate_angle();
     if (inertia_ && !form->prescribed) s.p_dot = torque - form->gravity * form->S * cos;
@@ -149,10 +151,30 @@ Lanes NodalStep::hub_rate() const {
     return rate;
 }
 
-void NodalStep::place_torque() {
-    torque = drive_torque_;
+Lanes NodalStep::torque_by_law() const {
+    Lanes by_law = drive_torque_;
     if (const auto& spring = system.spring())
-        torque -= spring->stiffness * (hub_angle() - spring->free_angle) + spring->damping * hub_rate();
+        by_law -= spring->stiffness * (hub_angle() - spring->free_angle) + spring->damping * hub_rate();
+    return by_law;
+}
+
+// The hub yields to the torque of its spring: θ and θ̇ respond to it as a gap to the contact force.
+void NodalStep::place_spring(const StepTable& table) {
+    const HubSpring& spring = *system.spring();
+    const NodalCompliance hub =
+        nodal_compliance(table, form->mass, form->prescribed ? 0 : 1 / form->J, form->h, form->h);
+    for (int l = 0; l < kNodes; ++l) {
+        Lanes& column = spring_matrix_[static_cast<std::size_t>(l)];
+        column = spring.stiffness * hub.value[static_cast<std::size_t>(l)] +
+                 spring.damping * hub.rate[static_cast<std::size_t>(l)];
+        column[l] += 1;
+    }
+}
+
+// Newton's method for the torque of the hub's spring.
+void NodalStep::place_torque() {
+    Lanes change = torque_by_law() - torque;
+    if (solve_dense(spring_matrix_, {&change, 1})) torque += change;
 }
 
 void NodalStep::evaluate_angle() {
@@ -191,7 +213,7 @@ void NodalStep::propagate(const StepTable& table) {
 double NodalStep::update_forcing(const StepTable& table, const ContactLoad* load) {
     BEAMCAM_ASSERT(table.h > 0 && table.rows.size() == n);
     BEAMCAM_ASSERT(!load || load->jn.size() == n);
-    place_torque();
+    if (system.spring()) place_torque();
     return inertia_ ? update_by_inertia(table, load) : update_by_arrays(table, load);
 }
 

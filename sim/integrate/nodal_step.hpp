@@ -9,6 +9,7 @@
 #include "sim/integrate/contact_lanes.hpp"
 #include "sim/integrate/exponential_segment.hpp"
 #include "sim/integrate/inertia_forces.hpp"
+#include "sim/integrate/nodal_compliance.hpp"
 #include "sim/integrate/step_errors.hpp"
 
 namespace beamcam::sim {
@@ -31,8 +32,8 @@ struct NodalStep {
 
     // The start of a step, from the end of the last.
     void begin(double t);
-    // An attempt at a step of length h: the hub at the nodes is as prescribed, or guessed as a rigid pendulum.
-    void begin_attempt(double h);
+    // An attempt at a step: the hub at the nodes is as prescribed, or guessed as a rigid pendulum.
+    void begin_attempt(const StepTable& table);
     // The free motion of q and q̇ at the nodes.
     void propagate_free(const StepTable& table);
     // Propagates also the part of the forcing that does not depend on q and q̇.
@@ -74,7 +75,9 @@ struct NodalStep {
   private:
     Lanes hub_angle() const;
     Lanes hub_rate() const;
+    Lanes torque_by_law() const;
     void place_torque();
+    void place_spring(const StepTable& table);
     void evaluate_angle();
     void advance_angle(const Lanes& to);
     double set_angle(double h);
@@ -91,6 +94,7 @@ struct NodalStep {
 
     double rtol_, atol_;
     Lanes acceleration_{}, drive_torque_{};
+    NodalMatrix spring_matrix_{};  // difference of the spring's torque from its law, by that torque
     std::vector<Lanes> base_q_, base_v_, bq_, gq_;
     std::vector<double> start_;          // of the step, in modes
     std::vector<double> start_forcing_;  // of damped modes in flight: there, ṗ and f in place of the rates

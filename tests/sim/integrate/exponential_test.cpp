@@ -360,6 +360,21 @@ TEST(ExponentialFlight, SpansManyPeriodsOfVibration) {
     EXPECT_LT(static_cast<double>(r.counters.steps), 1e-2 * 0.36 * system.highest_frequency());
 }
 
+TEST(ExponentialFlight, IsNotSlowedByADamperAtTheHub) {
+    for (const ModelKind kind : {ModelKind::first_order, ModelKind::exact})
+        for (const double damping : {0.5, 2.0}) {
+            Problem p = falling_beam(kind, Basis::automatic, 3);
+            p.hub.spring = HubSpring{.stiffness = 10, .damping = damping};
+            p.solver.method = Method::rk8;
+            const double truth = series(p, "tip_deflection", {0.7}).front();
+            p.solver.method = Method::automatic;
+            p.solver.rtol = 1e-8;
+            p.solver.atol = 1e-11;
+            EXPECT_NEAR(series(p, "tip_deflection", {0.7}).front(), truth, 1e-9) << name(kind) << damping;
+            EXPECT_LT(run(p, 1).counters.steps, 600) << name(kind) << damping;
+        }
+}
+
 // A soft beam: its modes turn by less than half a radian in the first step, which is short because it is the first.
 TEST(ExponentialFlight, TakesSoftBeamsOfEveryModelAndHub) {
     for (const ModelKind kind : {ModelKind::first_order, ModelKind::exact})
