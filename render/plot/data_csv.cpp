@@ -51,12 +51,11 @@ class PanelRows {
 
     void add() {
         for (const Series& drawn : panel_.series) {
-            const Axis& axis = vertical(drawn.right);
             const Series s = drawn.line ? without_repeats(drawn) : drawn;
             rows(cell_text(!s.name.empty()    ? s.name
                            : !s.label.empty() ? s.label
-                                              : quantity_of(axis)),
-                 axis, s.x, s.y, s.value);
+                                              : quantity_of(panel_.y)),
+                 panel_.y, s.x, s.y, s.value);
         }
         for (const Band& b : panel_.bands) {
             const std::string band = cell_text(b.label.empty() ? quantity_of(panel_.y) : b.label);
@@ -72,7 +71,6 @@ class PanelRows {
     }
 
   private:
-    const Axis& vertical(bool right) const { return right && panel_.right ? *panel_.right : panel_.y; }
     static std::string text_or(const std::string& label, const char* otherwise) {
         return label.empty() ? otherwise : cell_text(label);
     }
@@ -186,17 +184,17 @@ class CurveTable {
         const Series* faded = nullptr;  // a part of the next curve
         std::size_t begun = 0;
         for (const Series& curve : panel.series) {
-            const bool goes_on = faded && faded->look == curve.look && faded->right == curve.right;
+            const bool goes_on = faded && faded->look == curve.look;
             if (!goes_on) {
                 begun = columns_.size();
                 if (!by_x_) columns_.push_back({name_of(panel, panel.x, curve), {}});
-                columns_.push_back({name_of(panel, curve.right && panel.right ? *panel.right : panel.y, curve), {}});
+                columns_.push_back({name_of(panel, panel.y, curve), {}});
                 if (!curve.value.empty() && panel.color_bar)
                     columns_.push_back({name_of(panel, Axis{.label = panel.color_bar->label}, curve), {}});
             } else if (!curve.label.empty()) {  // the part that is reproducible has the name
                 CurveColumn& column = columns_[begun + (by_x_ ? 0 : 1)];
                 column.name.clear();
-                column.name = name_of(panel, curve.right && panel.right ? *panel.right : panel.y, curve);
+                column.name = name_of(panel, panel.y, curve);
             }
             add_points(curve, begun);
             faded = curve.faded ? &curve : nullptr;

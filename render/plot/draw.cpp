@@ -47,6 +47,8 @@ class FigureLayout {
                 drawings_[i]->place(plot(i));
             }
         }
+        for (std::size_t i = 0; i < drawings_.size(); ++i)  // titles in narrow panels have more lines at last
+            if (drawings_[i] && drawings_[i]->margins().top > margins_[i / grid_.columns].top + 1) return false;
         return true;
     }
 
@@ -212,7 +214,6 @@ void draw(const Figure& figure, const Page& page, PageCanvas& sheet) {
 
 static std::string words_of(const Panel& p) {
     std::string all = p.title + p.x.label + p.y.label;
-    if (p.right) all += p.right->label;
     if (p.color_bar) all += p.color_bar->label;
     for (const Series& s : p.series) all += s.label;
     for (const Band& b : p.bands) all += b.label;

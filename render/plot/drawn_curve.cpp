@@ -69,8 +69,7 @@ void draw_marker(Painter& on, const PlotStyle& style, Marker shape, Vec2 p, doub
 }
 
 // Lines are reduced, so that a million points cost as little as a few thousand.
-DrawnCurve::DrawnCurve(const Series& s, const Plot& plot, double grain)
-    : series_(&s), points_(plot.points(s.x, s.y, s.right)) {
+DrawnCurve::DrawnCurve(const Series& s, const Plot& plot, double grain) : series_(&s), points_(plot.points(s.x, s.y)) {
     for (std::size_t i = 0; plot.bar() && i < std::min(points_.size(), s.value.size()); ++i) {
         const std::optional<Color> color = plot.color_at(s.value[i]);
         if (!color) points_[i].x = std::nan("");

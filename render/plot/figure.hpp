@@ -24,7 +24,6 @@ struct Series {
     bool every_point = false;         // a marker at each point
     bool solid = false;               // no dash although the look has one
     bool faded = false;               // lighter and thinner: not reproducible
-    bool right = false;               // belongs to the right axis
     std::vector<double> dash = {};    // of films [design px]
     double weight = 1;                // of the line
     std::optional<Color> color = {};  // instead of the look's
@@ -121,7 +120,6 @@ struct Panel {
     std::string title = {};    // markup, beside the letter
     std::string caption = {};  // markup: what it shows, after its letter in the caption of the figure
     Axis x{.tight = true}, y = {};
-    std::optional<Axis> right = {};
     std::vector<Series> series = {};
     std::vector<Band> bands = {};
     std::vector<Cells> cells = {};

@@ -74,9 +74,7 @@ void PanelDrawing::draw_data() const {
     draw_markers(true);
     sheet_.clip(plot_.box(), [&] {
         for (const Cloud& cloud : panel_.clouds) draw_cloud(cloud, plot_, sheet_);
-        for (const bool right : {true, false})  // those of the right axis are beneath the others
-            for (const DrawnCurve& curve : curves)
-                if (curve.series().right == right) curve.draw(style_, sheet_);
+        for (const DrawnCurve& curve : curves) curve.draw(style_, sheet_);
     });
     plot_.draw_x_axis(sheet_);
     plot_.draw_y_axis(sheet_);

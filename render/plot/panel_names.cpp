@@ -92,9 +92,7 @@ double PanelNames::widest(const AxisMap& axis) const {
 void PanelNames::fit(const Plot& plot, double width, double height) {
     x_ = broken(plot.x().label(), 1.1 * width);
     y_ = broken(plot.y().label(), 1.05 * height);
-    right_ = plot.right() ? broken(plot.right()->label(), 1.05 * height) : Label{};
     widest_y_ = widest(plot.y());
-    widest_right_ = plot.right() ? widest(*plot.right()) : 0;
     widest_bar_ = plot.bar() ? widest(*plot.bar()) : 0;
     below_ = sheet_.cap_height(style_.numbers);
     beyond_left_ = beyond_right_ = 0;
@@ -139,11 +137,9 @@ Margins PanelNames::room_around(const Plot& plot) const {
         if (!panel_.x.label.empty()) m.bottom += 1.05 * letter + style_.gap + x_.beside;
     }
     m.top = std::max(number / 2 + 0.5, titles_height_);
-    if (!plot.y().common().empty() || (plot.right() && !plot.right()->common().empty()))
-        m.top += style_.numbers + style_.gap;
+    if (!plot.y().common().empty()) m.top += style_.numbers + style_.gap;
     m.top += legend_height() - (has_letter_in_legend() ? titles_height_ : 0);
     m.right = std::max(1.3 * style_.numbers, beyond_right_);
-    if (plot.right()) m.right = widest_right_ + style_.gap + letter + 1.5 * style_.gap + right_.beside;
     if (plot.bar()) m.right = before_bar() + 0.9 * letter + style_.gap + widest_bar_ + letter + 1.6 * style_.gap;
     return m;
 }
@@ -214,34 +210,14 @@ void PanelNames::draw_labels_beside(const Plot& plot) const {
     TextStyle l = style_.words();
     l.align = HAlign::centre;
     l.turned = std::numbers::pi / 2;
-    if (plot.right()) l.color = color_of_axis(false);
     double x = box.x - style_.gap - widest_y_ - 1.6 * style_.gap - y_.beside;
     for (const std::string& line : y_.lines) sheet_.text({x, box.centre().y}, line, l), x += step;
-    if (!plot.right()) return;
-    l.valign = VAlign::top;
-    x = box.right() + style_.gap + widest_right_ + 1.4 * style_.gap;
-    l.color = color_of_axis(true);
-    for (const std::string& line : right_.lines) sheet_.text({x, box.centre().y}, line, l), x += step;
-}
-
-// That of its curves, if they have one.
-Color PanelNames::color_of_axis(bool right) const {
-    std::optional<Color> color;
-    for (const Series& s : panel_.series) {
-        if (s.right != right) continue;
-        if (color && *color != color_of(s)) return kInk;
-        color = color_of(s);
-    }
-    return color.value_or(kInk);
 }
 
 void PanelNames::draw_common_factors(const Plot& plot) const {
     const double y = plot.box().y - style_.gap;
     TextStyle common = style_.tick_numbers();
     if (!plot.y().common().empty()) sheet_.text({plot.box().x, y}, plot.y().common(), common);
-    if (!plot.right() || plot.right()->common().empty()) return;
-    common.align = HAlign::right;
-    sheet_.text({plot.box().right(), y}, plot.right()->common(), common);
 }
 
 TextStyle PanelNames::letter_style() const {

@@ -52,7 +52,6 @@ class PanelNames {
     double widest(const AxisMap& axis) const;  // of its numbers
     void draw_label_below(const Plot& plot) const;
     void draw_labels_beside(const Plot& plot) const;
-    Color color_of_axis(bool right) const;
     void draw_common_factors(const Plot& plot) const;
     void draw_titles(const Plot& plot, double top, bool alone) const;
     void draw_color_bar(const Plot& plot, const Box& beside) const;
@@ -63,9 +62,9 @@ class PanelNames {
     const PlotStyle& style_;
     PageCanvas& sheet_;
     bool lowest_;
-    Label x_, y_, right_;
+    Label x_, y_;
     std::vector<std::string> title_;
-    double widest_y_ = 0, widest_right_ = 0, widest_bar_ = 0, below_ = 0, titles_height_ = 0;
+    double widest_y_ = 0, widest_bar_ = 0, below_ = 0, titles_height_ = 0;
     std::vector<Entry> entries_;
     double widest_entry_ = 0;
     double beyond_left_ = 0, beyond_right_ = 0;  // of the plot, reached by the numbers below it

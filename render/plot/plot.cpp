@@ -7,20 +7,19 @@ namespace beamcam::render::figure {
 namespace {
 
 struct Extents {
-    Extent x, y, right, color;
+    Extent x, y, color;
 };
 Extents extents_of(const Panel& panel) {
     Extents all;
-    const auto add = [&](std::span<const double> x, std::span<const double> y, bool right = false) {
+    const auto add = [&](std::span<const double> x, std::span<const double> y) {
         all.x.add(x, panel.x.scale);
-        right ? all.right.add(y, panel.right ? panel.right->scale : panel.y.scale) : all.y.add(y, panel.y.scale);
+        all.y.add(y, panel.y.scale);
     };
     for (const Series& s : panel.series) {
         const auto shows = [](double v, Scale scale) { return std::isfinite(v) && (scale == Scale::linear || v > 0); };
-        const Scale vertical = s.right && panel.right ? panel.right->scale : panel.y.scale;
         // Only points with two valid numbers.
         for (std::size_t i = 0; i < std::min(s.x.size(), s.y.size()); ++i)
-            if (shows(s.x[i], panel.x.scale) && shows(s.y[i], vertical)) add({&s.x[i], 1}, {&s.y[i], 1}, s.right);
+            if (shows(s.x[i], panel.x.scale) && shows(s.y[i], panel.y.scale)) add({&s.x[i], 1}, {&s.y[i], 1});
         all.color.add(s.value, panel.color_bar ? panel.color_bar->scale : Scale::linear);
     }
     for (const Band& b : panel.bands) add(b.x, b.low), add(b.x, b.high);
@@ -28,14 +27,6 @@ Extents extents_of(const Panel& panel) {
     for (const Cloud& c : panel.clouds) add(c.x, c.y);
     for (const Mark& m : panel.marks) add({&m.x, 1}, {&m.y, 1});
     return all;
-}
-
-// Where both axes have values of both signs, zero is at the same height.
-void align_zeros(Extent& left, Extent& right) {
-    if (!(left.low < 0 && left.high > 0 && right.low < 0 && right.high > 0)) return;
-    const double a = std::max(-left.low, left.high), b = std::max(-right.low, right.high);
-    left.low = std::min(left.low, right.low / b * a), left.high = std::max(left.high, right.high / b * a);
-    right.low = left.low / a * b, right.high = left.high / a * b;
 }
 
 // ---- ticks and their numbers -------------------------------------------------------------------------
@@ -114,15 +105,12 @@ void Plot::fit_x(const Painter& on, const Axis& axis, const Extent& data) {
 
 void Plot::fit(const Painter& on, double width, double height) {
     width_ = width, height_ = height;
-    auto [ex, ey, er, eb] = extents_of(*panel_);
-    if (panel_->right) align_zeros(ey, er);
+    auto [ex, ey, eb] = extents_of(*panel_);
     fit_x(on, panel_->x, ex);
     const int up = style_->palette
                        ? std::clamp(static_cast<int>(height / (40 * style_->unit)), 2, panel_->y.grid ? 6 : 5)
                        : std::clamp(static_cast<int>(height / (2.3 * style_->numbers)), 3, 8);
     y_.emplace(panel_->y, ey, up, what_ + ", vertical axis");
-    right_.reset();
-    if (panel_->right) right_.emplace(*panel_->right, er, up, what_ + ", right axis");
     bar_.reset();
     if (const auto& bar = panel_->color_bar)
         bar_.emplace(Axis{.label = bar->label, .scale = bar->scale, .from = bar->from, .to = bar->to, .tight = true},
@@ -136,29 +124,21 @@ void Plot::show_x(const Painter& on, double from, double to) {
     fit_x(on, axis, {});
 }
 
-Vec2 Plot::at(double x, double y, bool right) const {
-    const AxisMap& vertical = right && right_ ? *right_ : *y_;
-    return Vec2{along_x(x), box_.bottom() - box_.h * vertical.place(y)} + shift_;
-}
+Vec2 Plot::at(double x, double y) const { return Vec2{along_x(x), along_y(y)} + shift_; }
 
 // ---- axes and frame -------------------------------------------------------------------------------------
 
 double Plot::drop(const Painter& on) const {
     if (!lowest_ || !panel_->x.numbered) return 0;
     double out = 0;
-    const auto corner = [&](const std::optional<AxisMap>& vertical, bool left) {
-        for (const Tick& below : x_->ticks()) {
-            const double out_of_plot =
-                0.5 * on.measure(below.label, style_->tick_numbers()).w - width_ * (left ? below.at : 1 - below.at);
-            if (below.label.empty() || out_of_plot < 0.6 * style_->gap) continue;
-            for (const Tick& beside : vertical->ticks())
-                if (!beside.label.empty())
-                    out = std::max(out, 0.35 * style_->numbers + 0.5 * on.cap_height(style_->numbers) - style_->gap -
-                                            beside.at * height_);
-        }
-    };
-    corner(y_, true);
-    if (right_) corner(right_, false);
+    for (const Tick& below : x_->ticks()) {
+        const double out_of_plot = 0.5 * on.measure(below.label, style_->tick_numbers()).w - width_ * below.at;
+        if (below.label.empty() || out_of_plot < 0.6 * style_->gap) continue;
+        for (const Tick& beside : y_->ticks())
+            if (!beside.label.empty())
+                out = std::max(out, 0.35 * style_->numbers + 0.5 * on.cap_height(style_->numbers) - style_->gap -
+                                        beside.at * height_);
+    }
     return out;
 }
 
@@ -205,8 +185,7 @@ void Plot::draw_x_axis(Painter& on) const {
 void Plot::draw_y_axis(Painter& on) const {
     if (!style_->palette) {
         draw_page_ticks(on, *y_, box_, Side::left, true, style_->tick, style_->minor_tick);
-        return draw_page_ticks(on, right_ ? *right_ : *y_, box_, Side::right, right_.has_value(), style_->tick,
-                               style_->minor_tick);
+        return draw_page_ticks(on, *y_, box_, Side::right, false, style_->tick, style_->minor_tick);
     }
     TextStyle text = style_->tick_numbers();
     text.align = HAlign::right;

@@ -37,10 +37,10 @@ class Plot {
     void show_x(const Painter& on, double from, double to);
 
     const Box& box() const { return box_; }
-    Vec2 at(double x, double y, bool right = false) const;
+    Vec2 at(double x, double y) const;
     // On a page clamped, because Cairo's numbers are limited; in films those of an interval, reduced to columns of
     // pixels.
-    std::vector<Vec2> points(const std::vector<double>& x, const std::vector<double>& y, bool right = false,
+    std::vector<Vec2> points(const std::vector<double>& x, const std::vector<double>& y,
                              const Interval& part = {}) const;
     // Rounding decides to which column of pixels a point belongs: each medium keeps its own order of multiplication.
     double along_x(double x) const { return box_.x + (style_->palette ? x_->place(x, box_.w) : box_.w * x_->place(x)); }
@@ -52,7 +52,6 @@ class Plot {
     }
     const AxisMap& x() const { return *x_; }
     const AxisMap& y() const { return *y_; }
-    const std::optional<AxisMap>& right() const { return right_; }
     const std::optional<AxisMap>& bar() const { return bar_; }
 
     // How much the numbers below the plot are lowered so that they do not touch those beside it at a corner.
@@ -79,7 +78,7 @@ class Plot {
     const PlotStyle* style_;
     bool lowest_, moves_ = false;  // moves: the numbers of x
     std::string what_;
-    std::optional<AxisMap> x_, y_, right_, bar_;
+    std::optional<AxisMap> x_, y_, bar_;
     Box box_;
     Vec2 shift_;
     double width_ = 0, height_ = 0;

@@ -25,14 +25,13 @@ Pen curve_pen(const Series& s, const PlotStyle& style) {
     return pen;
 }
 
-std::vector<Vec2> Plot::points(const std::vector<double>& x, const std::vector<double>& y, bool right,
-                               const Interval& part) const {
+std::vector<Vec2> Plot::points(const std::vector<double>& x, const std::vector<double>& y, const Interval& part) const {
     std::vector<Vec2> out;
     const std::size_t rows = std::min(x.size(), y.size());
     if (!style_->palette) {
         out.reserve(rows);
         for (std::size_t i = 0; i < rows; ++i) {
-            const Vec2 p = at(x[i], y[i], right);
+            const Vec2 p = at(x[i], y[i]);
             out.push_back({std::clamp(p.x, box_.x - 20 * box_.w, box_.right() + 20 * box_.w),
                            std::clamp(p.y, box_.y - 20 * box_.h, box_.bottom() + 20 * box_.h)});
         }
@@ -66,11 +65,11 @@ void Plot::draw_bands(Painter& on, const Interval& part) const {
         on.fill(color);
     };
     for (const Band& b : panel_->bands)
-        fill(points(b.x, b.high, false, part), points(b.x, b.low, false, part),
+        fill(points(b.x, b.high, part), points(b.x, b.low, part),
              part.past ? b.color.value_or(pale(look(b.look).color, 0.72)) : b.faint);
     for (const Series& s : panel_->series) {
         if (!s.filled) continue;
-        const std::vector<Vec2> edge = points(s.x, s.y, false, part);
+        const std::vector<Vec2> edge = points(s.x, s.y, part);
         std::vector<Vec2> low = edge;
         for (Vec2& p : low) p.y = box_.bottom() + shift_.y;
         fill(edge, low, part.past ? color_of(s).faded(0.20) : s.faint.faded(0.35));
@@ -79,7 +78,7 @@ void Plot::draw_bands(Painter& on, const Interval& part) const {
 
 void Plot::draw_curve(Painter& on, const Series& s, const Interval& part) const {
     if (!(part.from < part.to)) return;
-    on.curve(points(s.x, s.y, false, part),
+    on.curve(points(s.x, s.y, part),
              {part.past ? color_of(s) : s.faint, (part.past ? kPastLine : kFutureLine) * style_->unit,
               dashes(s.dash, style_->unit), s.dash.empty() ? Cap::round : Cap::butt});
 }

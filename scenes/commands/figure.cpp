@@ -268,22 +268,20 @@ void add_content_options(CLI::App& app, FigureArguments& args) {
 }
 
 void add_series_options(CLI::App& app, FigureArguments& args) {
-    args.panel.add_list(app, "--right", "panels.0.right", "CHANNEL,...")
-        ->description("In \"series\": channels of another unit, on an axis at the right");
     add_list(app, "--compare", args.compare, "SCENE,...", "In \"series\": the same channels of these scenes, too");
     const std::string one_panel = "In \"series\" with one panel: ";
     args.panel.add_list(app, "--lines", "panels.0.lines", "V,...")
         ->description(
             one_panel +
-            "horizontal lines at these values of the left axis, such as 45deg; plain numbers are in SI units");
+            "horizontal lines at these values of the vertical axis, such as 45deg; plain numbers are in SI units");
     args.panel.add(app, "--low", "panels.0.low", "V")
-        ->description(one_panel + "lower end of the left axis, such as 45deg; a plain number is in SI units");
+        ->description(one_panel + "lower end of the vertical axis, such as 45deg; a plain number is in SI units");
     args.panel.add(app, "--high", "panels.0.high", "V")
-        ->description(one_panel + "upper end of the left axis; a plain number is in SI units");
+        ->description(one_panel + "upper end of the vertical axis; a plain number is in SI units");
     args.panel.add(app, "--label", "panels.0.label", "TEXT")
-        ->description(one_panel + "label of the left axis, without the unit");
+        ->description(one_panel + "label of the vertical axis, without the unit");
     args.panel.add(app, "--unit", "panels.0.unit", "UNIT")
-        ->description(one_panel + "unit of the left axis, such as MPa or deg");
+        ->description(one_panel + "unit of the vertical axis, such as MPa or deg");
     add_option(app, "--title", args.title, "TEXT", "In \"series\" with one panel: its title; $θ$ is mathematics");
     add_option(app, "--note", args.notes, "AT=TEXT",
                "In \"series\": a line with a text at an instant, for example impact:1=touch (repeatable)");

@@ -87,8 +87,7 @@ std::vector<std::string> missing_data(const figure::Figure& f) {
                                           render::to_plain(axis.label), data.low, data.high));
     };
     for (const figure::Panel& panel : f.panels) {
-        check(panel.y, panel.series,
-              [](const figure::Series& curve) { return curve.right ? std::vector<double>() : curve.y; });
+        check(panel.y, panel.series, [](const figure::Series& curve) { return curve.y; });
         if (&panel == &f.panels.front())
             check(panel.x, panel.series, [](const figure::Series& curve) { return curve.x; });
         if (!panel.clouds.empty() && all_empty(panel.clouds)) missing.emplace_back("no points");

@@ -15,17 +15,16 @@ namespace {
 
 // Gives the panels of several motions one scale, so that they compare.
 void share_ordinates(Figure& figure) {
-    std::map<std::pair<std::string, bool>, render::Extent> ranges;  // by what the panels show, on the right or left
+    std::map<std::string, render::Extent> ranges;  // by what the panels show
     for (const Panel& panel : figure.panels)
-        for (const Series& curve : panel.series) ranges[{panel.name, curve.right}].add(curve.y);
+        for (const Series& curve : panel.series) ranges[panel.name].add(curve.y);
     const auto share = [](render::Axis& axis, const render::Extent& range) {
         const double air = 0.05 * (range.high - range.low);
         if (!(range.high > range.low) || axis.scale == render::Scale::logarithmic) return;
         axis.from = axis.from.value_or(range.low - air), axis.to = axis.to.value_or(range.high + air);
     };
     for (Panel& panel : figure.panels) {
-        share(panel.y, ranges[{panel.name, false}]);
-        if (panel.right) share(*panel.right, ranges[{panel.name, true}]);
+        share(panel.y, ranges[panel.name]);
     }
 }
 
@@ -44,8 +43,9 @@ std::string series_marks(const SeriesPlan& plan, const Figure& figure) {
 
 Figure series_figure(const SeriesPlan& plan, const MotionResults& results) {
     std::vector<Panel> panels;
+    const std::vector<int> looks = looks_of_motions(plan, results);
     for (const PlannedPanel& planned : plan.panels)
-        std::ranges::move(series_panels(plan, planned, results), std::back_inserter(panels));
+        std::ranges::move(series_panels(plan, planned, results, looks), std::back_inserter(panels));
     const auto stands = [](const Panel& panel) {
         return std::ranges::all_of(panel.series,
                                    [](const Series& s) { return std::ranges::min(s.x) == std::ranges::max(s.x); });

@@ -63,9 +63,9 @@ struct SeriesCurve {
 };
 
 struct PlannedPanel {
-    std::size_t number = 0;                // among the panels of the keys
-    std::vector<std::size_t> motions;      // that it shows
-    std::vector<SeriesCurve> left, right;  // by axis: of each channel, all these motions
+    std::size_t number = 0;            // among the panels of the keys
+    std::vector<std::size_t> motions;  // that it shows
+    std::vector<SeriesCurve> curves;   // of each channel, all these motions
 };
 
 struct SeriesPlan {
@@ -94,9 +94,12 @@ void complete(SeriesPlan& plan, const Scene& scene, MotionRequests& requests);
 
 // ---- the figure ---------------------------------------------------------------------------------------
 
+// The look of each motion: one look for motions whose curves coincide in all panels.
+std::vector<int> looks_of_motions(const SeriesPlan& plan, const MotionResults& results);
+
 // A planned panel; with `keys.residuals` also a panel of the differences of the data.
 std::vector<render::figure::Panel> series_panels(const SeriesPlan& plan, const PlannedPanel& planned,
-                                                 const MotionResults& results);
+                                                 const MotionResults& results, const std::vector<int>& looks);
 
 // Vertical lines of the panel at instants, where x is time or grows with it. Throws PictureError for a note at an event
 // that the motion does not have, or has outside of the interval.

@@ -30,21 +30,10 @@ bool has_values(const sim::Table& table) {  // in its last channel
 
 bool is_zero(const sim::Table& table) { return largest_magnitude(table.values.back()) == 0; }
 
-// One axis of a panel: its curves, and how they are written.
-struct Side {
-    const std::vector<SeriesCurve>& curves;
-    const std::vector<Channel>& channels;
-    bool right;
-    std::vector<sim::Table> rows = {};  // of the curves
-    Measure measure = {};
-    std::vector<std::string> symbols = {};  // of the channels
-};
-
 // Whether curves over the same axes differ by less than a line is wide.
 bool coincide(const Series& a, const Series& b) {
     constexpr double kWidth = 0.008;  // of a line in a column, in the range of the curve
-    if (a.right != b.right || b.x.size() < 2 || !std::ranges::is_sorted(a.x) || !std::ranges::is_sorted(b.x))
-        return false;
+    if (b.x.size() < 2 || !std::ranges::is_sorted(a.x) || !std::ranges::is_sorted(b.x)) return false;
     render::Extent range;
     range.add(a.y);
     std::size_t k = 0;
@@ -59,11 +48,13 @@ bool coincide(const Series& a, const Series& b) {
 
 class SeriesPanelMaker {
   public:
-    SeriesPanelMaker(const SeriesPlan& plan, const PlannedPanel& planned, const MotionResults& results)
+    SeriesPanelMaker(const SeriesPlan& plan, const PlannedPanel& planned, const MotionResults& results,
+                     const std::vector<int>& looks)
         : plan_(plan),
           keys_(plan.keys.panels[planned.number]),
           planned_(planned),
           results_(results),
+          looks_(looks),
           first_(plan.motions[planned.motions.front()]) {}
 
     std::vector<Panel> make() {
@@ -73,9 +64,13 @@ class SeriesPanelMaker {
         if (!has_sums()) panel_.name = name(keys_.channels.front());
         if (keys_.logarithmic) panel_.y.scale = render::Scale::logarithmic;
         panel_.y.from = keys_.low, panel_.y.to = keys_.high;
-        if (!keys_.right.empty()) panel_.right.emplace();
-        add_side({planned_.left, keys_.channels, false});
-        if (panel_.right) add_side({planned_.right, keys_.right, true});
+        read();
+        panel_.y.label =
+            axis_label(keys_.label.empty() ? fmt::format("{}", fmt::join(symbols_, ", ")) : keys_.label, measure_.unit);
+        panel_.y.keeps_unit = !keys_.unit.name.empty();
+        for (std::size_t i = 0; i < planned_.curves.size(); ++i) planned_.curves[i].sum ? add_sum(i) : add_curve(i);
+        if (shows_motion_with_data()) add_data();
+        limit_axis();
         const auto labelled = [](const Series& curve) { return !curve.label.empty(); };
         panel_.legend = std::ranges::count_if(panel_.series, labelled) > 1;
         panel_.caption = caption();
@@ -106,59 +101,49 @@ class SeriesPanelMaker {
         return keys_.logarithmic && keys_.channels.front().kind == sim::ChannelKind::energy_residual;
     }
 
-    void add_side(Side side) {
-        read(side);
-        Axis& axis = side.right ? *panel_.right : panel_.y;
-        const std::string& own = side.right ? keys_.right_label : keys_.label;
-        axis.label =
-            axis_label(own.empty() ? fmt::format("{}", fmt::join(side.symbols, ", ")) : own, side.measure.unit);
-        axis.keeps_unit = !unit_of(side).name.empty();
-        for (std::size_t i = 0; i < side.curves.size(); ++i) side.curves[i].sum ? add_sum(side, i) : add_curve(side, i);
-        if (shows_motion_with_data()) add_data(side);
-        if (side.right) return;
+    void limit_axis() {
+        Axis& axis = panel_.y;
         for (auto* limit : {&axis.from, &axis.to})
-            if (*limit) **limit *= side.measure.factor;
-        for (const double at : keys_.lines) panel_.rules.push_back({.at = at * side.measure.factor});
+            if (*limit) **limit *= measure_.factor;
+        for (const double at : keys_.lines) panel_.rules.push_back({.at = at * measure_.factor});
         if (is_closure())
-            begin_at_rounding(side);
+            begin_at_rounding();
         else if (keys_.logarithmic && !plan_.abscissa.is_frequency() && !axis.from)
-            leave_out_tails(side, axis);
+            leave_out_tails();
     }
 
     // A force that ends passes through all decades to zero: the axis begins at most six below the largest value.
-    static void leave_out_tails(const Side& side, Axis& axis) {
+    void leave_out_tails() {
         constexpr double kDecades = 1e-6;
         double most = 0, least = std::numeric_limits<double>::infinity();
-        for (const sim::Table& rows : side.rows)
+        for (const sim::Table& rows : rows_)
             for (const double v : rows.values.back())
                 if (v > 0) most = std::max(most, v), least = std::min(least, v);
-        if (least < kDecades * most) axis.from = kDecades * most * side.measure.factor;
+        if (least < kDecades * most) panel_.y.from = kDecades * most * measure_.factor;
     }
 
-    const AxisUnit& unit_of(const Side& side) const { return side.right ? keys_.right_unit : keys_.unit; }
-
     // Reads the rows of the curves. Separate panels of several motions have one unit.
-    void read(Side& side) const {
+    void read() {
         double most = 0;
-        for (const SeriesCurve& curve : side.curves) {
-            side.rows.push_back(rows_of(curve));
-            most = std::max(most, largest_magnitude(side.rows.back().values.back()));
+        for (const SeriesCurve& curve : planned_.curves) {
+            rows_.push_back(rows_of(curve));
+            most = std::max(most, largest_magnitude(rows_.back().values.back()));
         }
-        if (shows_some()) most = std::max(most, largest_of_all(side.right));
-        const Channel& first = side.channels.front();
-        if (!(most > 0) && std::ranges::none_of(side.rows, has_values))
+        if (shows_some()) most = std::max(most, largest_of_all());
+        const Channel& first = keys_.channels.front();
+        if (!(most > 0) && std::ranges::none_of(rows_, has_values))
             throw render::PictureError(
                 fmt::format("series: {} has no value from {:g} s to {:g} s", name(first), plan_.keys.from, plan_.end));
         const std::string si = unit(first, plan_.motions.front().problem);
-        side.measure = !unit_of(side).name.empty() ? measure_in(unit_of(side))
-                       : plan_.has_sums()          ? Measure{1, si}
-                                                   : measure_of(si, most, plan_.units);
-        if (has_sums() && si == "J") return void(side.symbols = {"$E$"});
-        for (const Channel& channel : side.channels)
-            side.symbols.push_back(fmt::format(fmt::runtime(plan_.abscissa.is_frequency() ? "|{}|"
-                                                            : is_closure()                ? "max |{}|"
-                                                                                          : "{}"),
-                                               render::print_symbol(channel)));
+        measure_ = !keys_.unit.name.empty() ? measure_in(keys_.unit)
+                   : plan_.has_sums()       ? Measure{1, si}
+                                            : measure_of(si, most, plan_.units);
+        if (has_sums() && si == "J") return void(symbols_ = {"$E$"});
+        for (const Channel& channel : keys_.channels)
+            symbols_.push_back(fmt::format(fmt::runtime(plan_.abscissa.is_frequency() ? "|{}|"
+                                                        : is_closure()                ? "max |{}|"
+                                                                                      : "{}"),
+                                           render::print_symbol(channel)));
     }
     sim::Table rows_of(const SeriesCurve& curve) const {
         sim::Table rows = plan_.rows(curve, results_);
@@ -171,71 +156,65 @@ class SeriesPanelMaker {
     double rounding(const SeriesCurve& curve) const {
         return 1e-12 * results_[plan_.motions[curve.motion].request]->energy_scale;
     }
-    double largest_of_all(bool right) const {
+    double largest_of_all() const {
         double most = 0;
         for (const PlannedPanel& panel : plan_.panels)
             if (panel.number == planned_.number)
-                for (const SeriesCurve& curve : right ? panel.right : panel.left)
+                for (const SeriesCurve& curve : panel.curves)
                     most = std::max(most, largest_magnitude(rows_of(curve).values.back()));
         return most;
     }
 
     // Starts the axis at the rounding. A panel that would show rounding alone is omitted if there are others.
-    void begin_at_rounding(const Side& side) {
+    void begin_at_rounding() {
         double floor = 0, most = 0;
-        for (std::size_t i = 0; i < side.curves.size(); ++i)
-            floor = std::max(floor, rounding(side.curves[i])),
-            most = std::max(most, largest_magnitude(side.rows[i].values.back()));
-        if (!panel_.y.from && floor > 0) panel_.y.from = floor * side.measure.factor;
+        for (std::size_t i = 0; i < planned_.curves.size(); ++i)
+            floor = std::max(floor, rounding(planned_.curves[i])),
+            most = std::max(most, largest_magnitude(rows_[i].values.back()));
+        if (!panel_.y.from && floor > 0) panel_.y.from = floor * measure_.factor;
         is_rounding_ = plan_.keys.panels.size() > 1 && !(floor > 0 && most > 10 * floor);
     }
 
     // A sum of several channels that is zero throughout is omitted.
-    void add_sum(const Side& side, std::size_t i) {
-        const SeriesSum& sum = *side.curves[i].sum;
-        const std::vector<double>& values = side.rows[i].values.back();
-        if (sum.plus.size() > 1 && is_zero(side.rows[i])) return;
+    void add_sum(std::size_t i) {
+        const SeriesSum& sum = *planned_.curves[i].sum;
+        const std::vector<double>& values = rows_[i].values.back();
+        if (sum.plus.size() > 1 && is_zero(rows_[i])) return;
         sums_.push_back(sum.label);
         constexpr int kBlack = 6;
         const bool total = !sum.minus.empty();
         Series curve{.label = phrase(plan_.lang, sum.label),
-                     .x = plan_.abscissa.of(side.rows[i], plan_.motions[side.curves[i].motion].problem),
-                     .y = scaled(values, side.measure.factor),
+                     .x = plan_.abscissa.of(rows_[i], plan_.motions[planned_.curves[i].motion].problem),
+                     .y = scaled(values, measure_.factor),
                      .look = total ? kBlack : curves_++,
                      .solid = total,
                      .weight = total ? 1 : kCurveWeight};
-        curve.t = side.rows[i].values[0];
+        curve.t = rows_[i].values[0];
         plan_.abscissa.fold(curve);
         panel_.series.push_back(std::move(curve));
     }
 
-    // Paler where θ is not reproducible. Forces are solid: gaps of dashes would hide their short peaks. With two axes
-    // all curves are.
-    void add_curve(const Side& side, std::size_t i) {
-        const SeriesMotion& motion = plan_.motions[side.curves[i].motion];
-        const std::size_t shown = planned_.motions.size();
-        const std::string& symbol = side.symbols[i / shown];
-        const sim::Table& rows = side.rows[i];
-        const bool one_channel = side.channels.size() == 1;
+    // Paler where θ is not reproducible. Forces are solid: gaps of dashes would hide their short peaks.
+    void add_curve(std::size_t i) {
+        const SeriesMotion& motion = plan_.motions[planned_.curves[i].motion];
+        const std::size_t shown = planned_.motions.size(), channel = i / shown;
+        const sim::Table& rows = rows_[i];
+        const bool one_channel = keys_.channels.size() == 1;
         const std::string label = phrase(plan_.lang, motion.label);
-        const std::string alone = one_channel && has_data(side) ? phrase(plan_.lang, "simulation")
-                                  : one_channel && panel_.right ? ""  // the name of the axis has the key
-                                                                : symbol;
-        Series whole{.label = shown == 1    ? alone
-                              : one_channel ? label
-                                            : fmt::format("{}, {}", label, symbol),
-                     .x = plan_.abscissa.of(rows, motion.problem),
-                     .y = scaled(rows.values.back(), side.measure.factor),
-                     .name = shown == 1 ? symbol : "",
-                     .look = curves_,
-                     .solid = panel_.right || side.channels[i / shown].kind == sim::ChannelKind::contact_force,
-                     .right = side.right,
-                     .weight = kCurveWeight};
-        // Of curves that coincide all have the look of the first.
-        for (const Series& other : whole_)
-            if (coincide(other, whole)) whole.look = other.look;
+        const std::string alone = one_channel && has_data() ? phrase(plan_.lang, "simulation") : symbols_[channel];
+        // Motions that coincide have one look.
+        const int looks = 1 + std::ranges::max(looks_);
+        Series whole{
+            .label = shown == 1    ? alone
+                     : one_channel ? label
+                                   : fmt::format("{}, {}", label, symbols_[channel]),
+            .x = plan_.abscissa.of(rows, motion.problem),
+            .y = scaled(rows.values.back(), measure_.factor),
+            .name = shown == 1 ? symbols_[channel] : "",
+            .look = shown == 1 ? curves_ : static_cast<int>(channel) * looks + looks_[planned_.curves[i].motion],
+            .solid = keys_.channels[channel].kind == sim::ChannelKind::contact_force,
+            .weight = kCurveWeight};
         curves_ = std::max(curves_, whole.look + 1);
-        whole_.push_back(whole);
         std::vector<Series> parts = by_reliability(whole, rows.values[0], plan_.unreliable(*results_[motion.request]));
         if (parts.size() > 1) parts.front().label.clear();
         for (Series& part : parts) {
@@ -249,41 +228,40 @@ class SeriesPanelMaker {
     bool shows_motion_with_data() const {
         return std::ranges::find(planned_.motions, plan_.measured_motion) != planned_.motions.end();
     }
-    bool has_data(const Side& side) const {
+    bool has_data() const {
         return shows_motion_with_data() && std::ranges::any_of(plan_.measured, [&](const Measured& each) {
-                   return each.data.find(side.channels.front()) != nullptr;
+                   return each.data.find(keys_.channels.front()) != nullptr;
                });
     }
-    void add_data(const Side& side) {
-        for (const Channel& channel : side.channels)
+    void add_data() {
+        for (const Channel& channel : keys_.channels)
             for (const Measured& each : plan_.measured) {
                 if (!each.data.find(channel)) continue;
                 if (plan_.abscissa.is_frequency())
-                    add_spectrum(each.data, channel, side);
+                    add_spectrum(each.data, channel);
                 else
-                    add_points(each, channel, side);
+                    add_points(each, channel);
             }
     }
 
-    void add_spectrum(const Measurement& data, Channel channel, const Side& side) {
+    void add_spectrum(const Measurement& data, Channel channel) {
         if (panel_.series.empty()) return;
         const auto lines = measured_spectrum(data, channel, panel_.series.back().x.back());
         if (!lines) return;
         Series& s = panel_.series.emplace_back(
-            measured_series(data, lines->values[0], scaled(lines->values[1], side.measure.factor), curves_++));
-        s.line = true, s.every_point = false, s.right = side.right;
+            measured_series(data, lines->values[0], scaled(lines->values[1], measure_.factor), curves_++));
+        s.line = true, s.every_point = false;
     }
 
     // Draws data beneath the computed curves, if they hold the quantity of the x axis.
-    void add_points(const Measured& measured, Channel channel, const Side& side) {
+    void add_points(const Measured& measured, Channel channel) {
         const Measurement& data = measured.data;
         const auto along = plan_.abscissa.of(data, plan_.motion_with_data().problem);
         if (!along) return;
-        Series points = measured_series(data, *along, scaled(*data.find(channel), side.measure.factor), curves_++);
-        points.right = side.right;
+        Series points = measured_series(data, *along, scaled(*data.find(channel), measure_.factor), curves_++);
         points.t = data.times;
         plan_.abscissa.fold(points);
-        if (plan_.keys.residuals && !side.right) add_difference(measured, channel, points);
+        if (plan_.keys.residuals) add_difference(measured, channel, points);
         panel_.series.insert(panel_.series.begin(), std::move(points));
     }
 
@@ -321,19 +299,48 @@ class SeriesPanelMaker {
     const SeriesPanel& keys_;
     const PlannedPanel& planned_;
     const MotionResults& results_;
-    const SeriesMotion& first_;  // of the motions shown
+    const std::vector<int>& looks_;  // of the motions
+    const SeriesMotion& first_;      // of those shown
+
+    std::vector<sim::Table> rows_;      // of the curves
+    std::vector<std::string> symbols_;  // of the channels
+    Measure measure_;
 
     Panel panel_, differences_;
-    std::vector<Series> whole_;      // the curves of channels, not divided by their reliability
     std::vector<std::string> sums_;  // the labels of those drawn
     bool is_rounding_ = false;       // it would show rounding alone
-    int curves_ = 0;                 // looks so far, on both axes and of data
+    int curves_ = 0;                 // looks so far, of data, too
 };
 
 }  // namespace
 
-std::vector<Panel> series_panels(const SeriesPlan& plan, const PlannedPanel& planned, const MotionResults& results) {
-    return SeriesPanelMaker(plan, planned, results).make();
+std::vector<int> looks_of_motions(const SeriesPlan& plan, const MotionResults& results) {
+    const auto curve_of = [&](const SeriesCurve& curve) {
+        const sim::Table rows = plan.rows(curve, results);
+        return Series{.x = plan.abscissa.of(rows, plan.motions[curve.motion].problem), .y = rows.values.back()};
+    };
+    const auto differ = [&](std::size_t a, std::size_t b, const PlannedPanel& panel) {
+        const std::size_t shown = panel.motions.size();
+        for (std::size_t i = 0; shown > 1 && i < panel.curves.size(); i += shown)
+            if (!coincide(curve_of(panel.curves[i + a]), curve_of(panel.curves[i + b]))) return true;
+        return false;
+    };
+    std::vector<int> looks;
+    for (std::size_t k = 0; k < plan.motions.size(); ++k) {
+        int look = looks.empty() ? 0 : 1 + std::ranges::max(looks);
+        for (std::size_t other = 0; other < k; ++other)
+            if (std::ranges::none_of(plan.panels, [&](const auto& panel) { return differ(other, k, panel); })) {
+                look = looks[other];
+                break;
+            }
+        looks.push_back(look);
+    }
+    return looks;
+}
+
+std::vector<Panel> series_panels(const SeriesPlan& plan, const PlannedPanel& planned, const MotionResults& results,
+                                 const std::vector<int>& looks) {
+    return SeriesPanelMaker(plan, planned, results, looks).make();
 }
 
 }  // namespace beamcam::scenes

@@ -29,10 +29,8 @@ std::size_t motion_measured(const Scene& scene, const std::vector<SeriesMotion>&
 
 std::vector<sim::Channel> channels_of(const SeriesPlan& plan) {
     std::vector<sim::Channel> all;
-    for (const SeriesPanel& panel : plan.keys.panels) {
+    for (const SeriesPanel& panel : plan.keys.panels)
         all.insert(all.end(), panel.channels.begin(), panel.channels.end());
-        all.insert(all.end(), panel.right.begin(), panel.right.end());
-    }
     if (plan.abscissa.channel()) all.push_back(*plan.abscissa.channel());
     return all;
 }
@@ -66,17 +64,15 @@ void add_sums(const SeriesPlan& plan, const std::vector<SeriesSum>& sums, std::s
 
 PlannedPanel planned(const SeriesPlan& plan, std::size_t number, std::vector<std::size_t> motions,
                      MotionRequests& requests) {
-    PlannedPanel out{number, std::move(motions), {}, {}};
+    PlannedPanel out{number, std::move(motions), {}};
     const SeriesPanel& keys = plan.keys.panels[number];
-    const auto add = [&](const std::vector<sim::Channel>& channels, std::vector<SeriesCurve>& curves) {
-        for (const sim::Channel& channel : channels)
+    if (keys.sums.empty())
+        for (const sim::Channel& channel : keys.channels)
             for (const std::size_t motion : out.motions)
-                curves.push_back({channel, motion, table_of(plan, channel, {}, kRows, plan.motions[motion], requests)});
-    };
-    if (keys.sums.empty()) add(keys.channels, out.left);
+                out.curves.push_back(
+                    {channel, motion, table_of(plan, channel, {}, kRows, plan.motions[motion], requests)});
     for (const std::size_t motion : out.motions)
-        if (!keys.sums.empty()) add_sums(plan, keys.sums, motion, requests, out.left);
-    add(keys.right, out.right);
+        if (!keys.sums.empty()) add_sums(plan, keys.sums, motion, requests, out.curves);
     return out;
 }
 
@@ -123,15 +119,8 @@ void complete(SeriesPlan& plan, const Scene& scene, MotionRequests& requests) {
     std::vector<std::size_t> all(plan.motions.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     for (std::size_t group = 0; group < (keys.apart ? all.size() : 1); ++group)
-        for (std::size_t number = 0; number < keys.panels.size(); ++number) {
-            // A panel with two axes shows one motion.
-            if (keys.apart)
-                plan.panels.push_back(planned(plan, number, {group}, requests));
-            else if (keys.panels[number].right.empty())
-                plan.panels.push_back(planned(plan, number, all, requests));
-            else
-                for (const std::size_t motion : all) plan.panels.push_back(planned(plan, number, {motion}, requests));
-        }
+        for (std::size_t number = 0; number < keys.panels.size(); ++number)
+            plan.panels.push_back(planned(plan, number, keys.apart ? std::vector<std::size_t>{group} : all, requests));
 }
 
 }  // namespace beamcam::scenes

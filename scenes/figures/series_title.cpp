@@ -21,10 +21,8 @@ std::string channel_text(const sim::Channel& channel) {
 std::string panel_subject(const SeriesPanel& panel) {
     std::vector<std::string> words;
     for (const SeriesSum& sum : panel.sums) words.push_back(sum.label);
-    for (const auto* side : {&panel.channels, &panel.right}) {
-        if (side == &panel.channels && !panel.sums.empty()) continue;
-        for (const sim::Channel& channel : *side) words.push_back(channel_text(channel));
-    }
+    if (panel.sums.empty())
+        for (const sim::Channel& channel : panel.channels) words.push_back(channel_text(channel));
     return fmt::format("{}", fmt::join(words, ", "));
 }
 

@@ -27,9 +27,9 @@ void require_one_unit(ObjectReader& r, const char* key, const std::vector<sim::C
     const sim::Problem& problem = r.context().scene.problem;
     for (const sim::Channel& channel : channels)
         if (std::string_view(unit(channel, problem)) != unit(channels.front(), problem))
-            return r.reject(
-                key, ": {} is measured in {}, but {} in {}; an axis has one unit: use \"right\" or another panel",
-                name(channel), unit(channel, problem), name(channels.front()), unit(channels.front(), problem));
+            return r.reject(key, ": {} is measured in {}, but {} in {}; a panel has one unit; use another panel",
+                            name(channel), unit(channel, problem), name(channels.front()),
+                            unit(channels.front(), problem));
 }
 
 // The interval that it shows. The times of events are unknown here.
@@ -76,7 +76,7 @@ void check_abscissa(ObjectReader& r, const SeriesKeys& series) {
 
 bool shows(const SeriesPanel& panel, const Measurement& data) {
     const auto holds = [&](const sim::Channel& channel) { return data.find(channel) != nullptr; };
-    return std::ranges::any_of(panel.channels, holds) || std::ranges::any_of(panel.right, holds);
+    return std::ranges::any_of(panel.channels, holds);
 }
 
 // Warns about data that have channels of the panels but not the channel of the abscissa, or no spectrum.
@@ -163,7 +163,6 @@ std::string problem_with_value(std::string_view diagram, const std::string& valu
 
 void check_series_panel(ObjectReader& r, const SeriesPanel& panel) {
     require_one_unit(r, "channels", panel.channels);
-    require_one_unit(r, "right", panel.right);
     std::vector<sim::Channel> summed = panel.channels;
     for (const SeriesSum& sum : panel.sums)
         for (const auto* channels : {&sum.plus, &sum.minus})
@@ -171,7 +170,6 @@ void check_series_panel(ObjectReader& r, const SeriesPanel& panel) {
     if (!panel.sums.empty()) require_one_unit(r, "sums", summed);
     check_markup(r, "title", panel.title);
     check_markup(r, "label", panel.label);
-    check_markup(r, "right_label", panel.right_label);
     if (panel.low && panel.high && !(*panel.low < *panel.high)) r.reject("high", " must be above \"low\"");
     for (const auto& [key, end] : {std::pair{"low", panel.low}, std::pair{"high", panel.high}})
         if (panel.logarithmic && end && !(*end > 0))

@@ -27,26 +27,25 @@ static void visit(SceneVisitor& v, SeriesSum& sum) {
 
 static void visit(SceneVisitor& v, SeriesPanel& panel) {
     v.value(sim::required("channels", "[\"theta\"]"), channels_format(panel.channels), "Curves, all of one unit.");
-    v.value("right", channels_format(panel.right),
-            "Curves of another unit, on the right axis; each motion then has its own panel.");
     List sums = SceneVisitor::items_of(panel.sums);
     sums.max_size = 12, sums.of = "sums";
     sums.example = "[{\"label\": \"stored\", \"plus\": [\"energy_elastic\", \"energy_contact\"]}]";
     v.list("sums", sums, "Curves that are sums of channels; only they are drawn, in the unit of \"channels\".");
     v.choice("scale", panel.logarithmic, {{false, "linear"}, {true, "log"}},
-             "Scale of the left axis; log omits values that are not positive; a logarithmic one begins at most six "
+             "Scale of the vertical axis; log omits values that are not positive; a logarithmic one begins at most six "
              "decades below its largest value, unless \"low\" tells where.");
     const DimensionOf of_axis = dimension_of_first(panel.channels);
-    v.value("low", quantity_format(panel.low, of_axis), "Lower end of the left axis; a plain number is in SI units.");
-    v.value("high", quantity_format(panel.high, of_axis), "Upper end of the left axis; a plain number is in SI units.");
+    v.value("low", quantity_format(panel.low, of_axis),
+            "Lower end of the vertical axis; a plain number is in SI units.");
+    v.value("high", quantity_format(panel.high, of_axis),
+            "Upper end of the vertical axis; a plain number is in SI units.");
     v.value("lines", quantities_format(panel.lines, of_axis),
-            "Horizontal lines at these values of the left axis; plain numbers are in SI units.");
-    v.text("label", panel.label,
-           "Label of the left axis, without the unit; by default the symbols of the channels; $v_{1}$ is a formula.");
+            "Horizontal lines at these values of the vertical axis; plain numbers are in SI units.");
+    v.text(
+        "label", panel.label,
+        "Label of the vertical axis, without the unit; by default the symbols of the channels; $v_{1}$ is a formula.");
     v.value("unit", unit_format(panel.unit, of_axis),
-            "Unit of the left axis: \"MPa\", \"deg\"; by default that of the scene, or SI with a prefix.");
-    v.text("right_label", panel.right_label, "Label of the right axis.");
-    v.value("right_unit", unit_format(panel.right_unit, dimension_of_first(panel.right)), "Unit of the right axis.");
+            "Unit of the vertical axis: \"MPa\", \"deg\"; by default that of the scene, or SI with a prefix.");
     v.text("title", panel.title, "Title above the panel; $θ$ is a formula.");
     v.check([&panel](ObjectReader& r) { check_series_panel(r, panel); });
 }

@@ -120,15 +120,15 @@ struct SeriesSum {
     std::string label;
     std::vector<sim::Channel> plus = {}, minus = {};  // with `minus` it is a balance, drawn in black
 };
-// A panel of the figure "series": curves of one unit, and of another unit on the right axis.
+// A panel of the figure "series": curves of one unit.
 struct SeriesPanel {
-    std::vector<sim::Channel> channels = {}, right = {};
+    std::vector<sim::Channel> channels = {};
     std::vector<SeriesSum> sums = {};  // curves instead of the channels, of their unit
     bool logarithmic = false;
-    std::optional<double> low = {}, high = {};  // of the left axis, in SI units
-    std::vector<double> lines = {};             // horizontal, at these values of the left axis
-    std::string label = {}, right_label = {};   // of the axes, without unit; empty: the channels' symbols
-    AxisUnit unit = {}, right_unit = {};
+    std::optional<double> low = {}, high = {};  // of the vertical axis, in SI units
+    std::vector<double> lines = {};             // horizontal, at these values of the vertical axis
+    std::string label = {};                     // of the vertical axis, without unit; empty: the channels' symbols
+    AxisUnit unit = {};
     std::string title = {};
 };
 // A vertical line with a text.

@@ -110,10 +110,6 @@ TEST(Figure, NoLetterIsSmallerThanSixPointsAndNoneLeavesThePage) {
     for (int i = 0; i < 500; ++i) x.push_back(i * 1e-3), y.push_back(1e6 * std::sin(i * 0.1));
     Figure figure = plot(x, y);
     figure.panels[0].y.label = "$F_{\\r{c}}$ / (kN m^{−1})";
-    figure.panels[0].right = Axis{.label = "$δ^{2}$ / µm"};
-    Series other = figure.panels[0].series[0];
-    other.right = true;
-    figure.panels[0].series.push_back(other);
     for (const std::string& name : column_names()) {
         const Column& column = *column_named(name);
         const Drawn drawn = draw_png(figure, column.name);
@@ -129,7 +125,7 @@ TEST(Figure, NoLetterIsSmallerThanSixPointsAndNoneLeavesThePage) {
     }
 }
 
-// Panels with what a series may have: two axes, many curves, long titles, common powers of ten, marks, rules.
+// Panels with what a series may have: many curves, long titles, common powers of ten, marks, rules.
 Figure random_figure(std::mt19937& random) {
     const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
     const auto chance = [&] { return below(2) == 0; };
@@ -147,19 +143,15 @@ Figure random_figure(std::mt19937& random) {
         panel.y.label = chance() ? "$F_{\\r{c}}$ / (kN m^{−1})" : "max |$Δθ$| of all / rad";
         panel.legend = chance();
         const double scale = std::pow(10, below(13) - 6), from = std::pow(10, below(7) - 3);
-        if (chance()) panel.right = Axis{.label = "$δ^{2}$ / µm"};
         for (int curve = 1 + below(5); curve > 0; --curve) {
             Series s;
             if (chance()) s.label = chance() ? "flexible, 2 modes" : "$q_{1}$";
-            s.right = panel.right && chance();
             s.look = curve;
             const double pace = 1 + below(300);
             for (int i = 0; i <= 100; ++i)
                 s.x.push_back(from * (1 + i / 100.0)), s.y.push_back(scale * (below(3) + std::sin(i * pace / 100.0)));
             panel.series.push_back(std::move(s));
         }
-        if (panel.right) panel.series.front().right = false, panel.series.push_back(panel.series.front());
-        if (panel.right) panel.series.back().right = true, panel.series.back().label.clear();
         if (chance()) panel.rules.push_back({.at = from * 1.3, .vertical = true, .label = "impact"});
         if (chance()) panel.marks.push_back({.x = from * 1.5, .y = scale, .label = "0.369 99 s"});
         figure.panels.push_back(std::move(panel));

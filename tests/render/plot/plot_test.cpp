@@ -44,21 +44,6 @@ TEST(Plot, HasTheSamePlacesOnAPageAndInAFilm) {
     EXPECT_DOUBLE_EQ(printed.along_x(1), kBox.right());
 }
 
-TEST(Plot, HasTheZerosOfItsTwoAxesAtOneHeight) {
-    Panel panel{.right = Axis{}};
-    panel.series = {{.x = {0, 1}, .y = {-16, 4}}, {.x = {0, 1}, .y = {-1, 300}, .right = true}};
-    const Fonts fonts;
-    Image image(300, 160);
-    Canvas canvas(image, fonts);
-    const PlotStyle page = style_of(*column_named("elsevier"));
-    Plot plot(panel, page, "test");
-    plot.place(canvas, kBox);
-    EXPECT_DOUBLE_EQ(plot.at(0, 0).y, plot.at(0, 0, true).y);
-    panel.series[1].y[0] = 0;  // half of the right axis would stay empty
-    plot.place(canvas, kBox);
-    EXPECT_GT(plot.at(0, 0, true).y, plot.at(0, 0).y + 0.1 * kBox.h);
-}
-
 // The past ends between two rows at its instant; the future goes on to the next row.
 TEST(Plot, DrawsThePastToItsInstantAndTheFutureFainter) {
     const Panel panel = rising();

@@ -375,9 +375,8 @@ TEST(Figures, OptionsOfOtherFiguresAreNamedAsTheyWereGiven) {
         EXPECT_EQ(made.code, 2) << options;
         return made.err;
     };
-    for (const std::string option :
-         {"--low 1", "--high 1", "--title x", "--log", "--lines 1", "--right theta", "--panels", "--note 1=x",
-          "--compare s.json", "--impacts", "--residuals", "--x-low 1"})
+    for (const std::string option : {"--low 1", "--high 1", "--title x", "--log", "--lines 1", "--panels", "--note 1=x",
+                                     "--compare s.json", "--impacts", "--residuals", "--x-low 1"})
         EXPECT_THAT(refusal("schematic " + option),
                     StartsWith("beamcam: " + option.substr(0, option.find(' ')) + " belongs to the figure \"series\""));
 }

@@ -55,7 +55,7 @@ std::string series(Dice& dice) {
          {"theta", "contact_force", "tip_deflection", "gap", "theta_dot", "energy_kinetic", "contact_x"})
         if (dice.chance(3)) channels += fmt::format("{}\"{}\"", channels.empty() ? "" : ", ", each);
     std::string text = fmt::format(R"("channels": [{}])", channels.empty() ? "\"theta\"" : channels);
-    if (dice.chance(4)) text = R"("panels": [{"channels": ["theta"], "right": ["theta_dot"], "title": "hub $θ$"}])";
+    if (dice.chance(4)) text = R"("panels": [{"channels": ["theta"], "title": "hub $θ$"}])";
     const bool over_time = dice.chance();
     text += fmt::format(R"(, "x": "{}")", over_time ? "t" : dice.one_of({"theta", "turns", "phase", "frequency"}));
     if (over_time && dice.chance()) text += R"(, "impacts": true)";

@@ -100,15 +100,6 @@ TEST(Series, ComparesMotions) {
     EXPECT_EQ(figure.panels[0].series[0].label, "flexible");
     EXPECT_EQ(figure.panels[0].series[1].label, "rigid");
     EXPECT_EQ(figure.title, "Hub angle $θ$");
-    const Figure both = figure_of(
-        R"("panels": [{"channels": ["theta"], "right": ["gap"]}], "compare": [{"label": "a"}, {"label": "b", "set": {"beam.modes": 1}}])");
-    // A panel with two axes shows one motion, and its axes have the keys of the curves.
-    ASSERT_EQ(both.panels.size(), 2u);
-    EXPECT_EQ(both.panels[1].title, "b");
-    ASSERT_EQ(both.panels[1].series.size(), 2u);
-    EXPECT_EQ(both.panels[1].series[1].label, "");
-    EXPECT_TRUE(both.panels[1].series[1].right);
-    EXPECT_EQ(both.panels[1].right->label, "$g$ / mm");
 }
 
 TEST(Series, CoincidingCurvesHaveOneLook) {
@@ -120,6 +111,17 @@ TEST(Series, CoincidingCurvesHaveOneLook) {
     EXPECT_EQ(curves[0].look, curves[2].look);
     EXPECT_NE(curves[0].look, curves[1].look);
     EXPECT_TRUE(figure.panels[0].legend);
+}
+
+// The angles of all three coincide, but not the energies: a motion has one look in all panels.
+TEST(Series, MotionsKeepTheirLookFromPanelToPanel) {
+    const Figure figure = figure_of(
+        R"("channels": ["theta", "tip_deflection"], "to": 0.02, "compare": [{"label": "flexible"},
+           {"label": "rigid", "set": {"beam.model": "rigid"}}, {"label": "4 modes", "set": {"beam.modes": 4}}])");
+    ASSERT_EQ(figure.panels.size(), 2u);
+    for (const auto& panel : figure.panels)
+        for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(panel.series.at(k).look, figure.panels[0].series.at(k).look);
+    EXPECT_NE(figure.panels[1].series[0].look, figure.panels[1].series[1].look);
 }
 
 TEST(Series, TakesLimitsInTheUnitsOfTheScene) {
@@ -224,7 +226,7 @@ TEST(Series, DrawsSumsOfChannels) {
     EXPECT_THAT(testing::read(R"({"outputs": [{"type": "figure", "figure": "series", "panels": [
                     {"channels": ["theta"], "sums": [{"label": "a", "plus": ["theta", "contact_force"]}]}]}]})")
                     .report(),
-                HasSubstr("an axis has one unit"));
+                HasSubstr("a panel has one unit"));
 }
 
 TEST(Series, DrawsSumsAgainstAnyAbscissa) {
@@ -434,16 +436,15 @@ TEST(Series, OptionsDescribeAPanelAsKeysDo) {
     folder.write("s.json", R"({"time": {"end": 0.4}})");
     folder.write("k.json", R"({"time": {"end": 0.4}, "outputs": [{"type": "figure", "figure": "series", "file": "k.svg",
         "theme": "dark", "x_low": 0.1, "x_high": 0.35, "notes": [{"at": "impact:1", "text": "touch"}],
-        "panels": [{"channels": ["theta"], "right": ["gap"], "lines": [0.5, 0.7], "low": 0.3, "high": 1, "title": "Hub $θ$"}]}]})");
+        "panels": [{"channels": ["theta"], "lines": [0.5, 0.7], "low": 0.3, "high": 1, "title": "Hub $θ$"}]}]})");
     const Finished made = shell(folder,
-                                "$BEAMCAM run k.json -q && $BEAMCAM figure s.json -q --channels theta --right gap "
+                                "$BEAMCAM run k.json -q && $BEAMCAM figure s.json -q --channels theta "
                                 "--lines 0.5,0.7 --low 0.3 --high 1 --title 'Hub $θ$' --x-low 0.1 --x-high 0.35 "
                                 "--note impact:1=touch --theme dark -o s.svg");
     ASSERT_EQ(made.code, 0) << made.err;
     EXPECT_EQ(testing::slurp(folder / "k.svg"), testing::slurp(folder / "s.svg"));
     const std::string command = "$BEAMCAM figure s.json -q -o a.svg ";
     EXPECT_EQ(shell(folder, command + "--channels theta --low 2 --high 1").code, 2);
-    EXPECT_EQ(shell(folder, command + "--channels theta --right theta,gap").code, 2);
     EXPECT_EQ(shell(folder, command + "--channels theta --note impact:x=a").code, 2);
     EXPECT_EQ(shell(folder, command + "schematic --title A").code, 2);
     EXPECT_EQ(shell(folder, command + "--channels theta --panels").code, 2);
