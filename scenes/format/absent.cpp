@@ -61,6 +61,11 @@ constexpr Absent kAbsent[] = {
     {WordKind::key, "layer", "it was withdrawn; \"show\" and \"layout\" choose what a film shows"},
     {WordKind::key, "trace tip_path swing shutter exposures view.strobe palette logo",
      "it was withdrawn; \"theme\" and \"background\" remain, and the figure \"strobe\" draws several instants"},
+    {WordKind::key, "right right_label right_unit",
+     "the second axis was withdrawn: channels of another unit have a panel of their own"},
+    {WordKind::key, "horizon",
+     "films and stills have it no longer; curves of a \"figure\" show it, beamcam simulate --horizon lists the "
+     "intervals"},
 
     {WordKind::key, "wrap sign zero",
      "it was withdrawn: angles that begin again after a turn are joined; convert other columns before, and name the "
@@ -104,6 +109,7 @@ constexpr Absent kAbsent[] = {
     {WordKind::other, "--shard", "films are made in one piece; beamcam sweep --shard divides a sweep"},
     {WordKind::other, "--shapes",
      "it was withdrawn; beamcam figure SCENE kymograph --data FILE.csv has the deflections"},
+    {WordKind::other, "--right", "it was withdrawn: channels of another unit have a panel of their own"},
     {WordKind::other, "--collision", "it was withdrawn; write --from collision:3 --to liftoff:3"},
     {WordKind::other, "--emit --parts",
      "it was withdrawn; scenes/SWEEPS.md has recipes for GNU parallel, Snakemake and Slurm"},
