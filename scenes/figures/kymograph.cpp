@@ -69,11 +69,6 @@ Panel kymograph_panel(const std::vector<double>& v, const ShownPoses& shown, dou
 }
 
 FigureDrawing prepare_kymograph(const Scene& scene, const FigureOutput& how, MotionRequests& requests) {
-    if (scene.problem.initial.shape == sim::InitialShape::resting && !how.series.to)
-        throw render::PictureError(
-            "figure kymograph: the beam rests on the cam and strikes nothing, so no wave runs along it; see the "
-            "channel "
-            "tip_deflection, or set \"to\"");
     const double column = (how.series.to.value_or(scene.end_time) - how.series.from) / kColumns;
     const std::size_t samples = samples_per_column(scene.problem, column);
     const ShownPoses shown = request_poses(scene, how, kColumns * static_cast<int>(samples), kStations, requests);

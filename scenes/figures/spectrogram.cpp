@@ -79,7 +79,8 @@ void shorten(Spectrogram& s, double least) {
 // A twentieth of the interval, or four periods of the slowest vibration; four windows must fit.
 double usual_window(const sim::Problem& problem, double length) {
     const std::vector<double> frequencies = frequencies_of(problem);
-    const double slowest = frequencies.empty() ? 0 : frequencies.front();
+    if (frequencies.empty()) return length / 20;
+    const double slowest = frequencies.front();
     if (length * slowest < 16)
         throw render::PictureError(
             fmt::format("figure spectrogram: {:g} s are too few periods of the slowest vibration, {:.3g} Hz; raise "
@@ -160,7 +161,7 @@ FigureDrawing prepare_spectrogram(const Scene& scene, const FigureOutput& how, M
 
 extern const FigureType kSpectrogram{.name = "spectrogram",
                                      .title = "Amplitudes by frequency and time",
-                                     .refusal = needs_bending,
+                                     .refusal = no_refusal,
                                      .maker = prepare_spectrogram,
                                      .keys = {"channels", "from", "to", "window", "highest"}};
 

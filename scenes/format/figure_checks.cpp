@@ -116,11 +116,14 @@ void check_comparison(ObjectReader& r, const SeriesKeys& series) {
         r.reject("comparison", " = \"panels\" needs several motions; add \"compare\"");
     for (const Compared& motion : series.compare) check_markup(r, "compare", motion.label);
     const auto key = [](sim::Problem problem) {
-        if (problem.beam.model == sim::ModelKind::rigid) problem.beam.modes = 0;  // it has none
+        problem.beam.modes = 0;  // a rigid beam has none
         return motion_key(problem);
     };
-    const auto is_first = [&](const Compared& motion) { return key(motion.problem) == key(series.compare[0].problem); };
-    if (series.compare.size() > 1 && std::ranges::all_of(series.compare, is_first))
+    const auto is_first_rigid = [&](const Compared& motion) {
+        return motion.problem.beam.model == sim::ModelKind::rigid &&
+               key(motion.problem) == key(series.compare[0].problem);
+    };
+    if (series.compare.size() > 1 && std::ranges::all_of(series.compare, is_first_rigid))
         r.reject("compare", ": all motions are the same; a rigid beam has no modes");
 }
 
@@ -143,10 +146,12 @@ void check_series(ObjectReader& r, FigureOutput& figure) {
     check_markup(r, "x_label", series.x_label);
     check_residuals(r, series);
     check_comparison(r, series);
-    for (const SeriesPanel& panel : series.panels)
-        if (std::ranges::count(panel.channels, sim::Channel{sim::ChannelKind::tip_deflection}) > 0 &&
-            !bends(r.context().scene, series))
-            r.reject_object("channels", ": tip_deflection: a rigid beam does not bend; choose another beam.model");
+    const auto is_deflection = [](const SeriesPanel& panel) {
+        return panel.channels == std::vector{sim::Channel{sim::ChannelKind::tip_deflection}};
+    };
+    if (!series.panels.empty() && std::ranges::all_of(series.panels, is_deflection) &&
+        !bends(r.context().scene, series))
+        r.reject_object("channels", ": tip_deflection: a rigid beam does not bend; choose another beam.model");
     warn_of_undrawn_data(r, series);
 }
 
