@@ -259,7 +259,7 @@ std::string html_page(const FilmSetup& setup) {
         R"({{"title":{},"factor":{:.9g},"tolerance":{:.9g},"length":{:.9g},"thickness":{:.9g},"hub":{:.9g},"arc":{:.9g},"force":{:.9g},)"
         R"("degrees":{},"period":{:.9g},"colors":{},"cam":{},"impacts":{},{}}})",
         json_text(plain_text(setup.title)), context.scales.exaggeration, kPageTolerance * length, length, thickness,
-        hub_of_page(problem), arc_radius(problem), context.scales.arrow_force, setup.units.degrees,
+        hub_of_page(problem), arc_radius(problem), context.scales.largest_force, setup.units.degrees,
         std::isfinite(context.scales.period) ? context.scales.period : 0, colors, cam_json(context),
         impacts_json(context), numbers_json(thinned_instants(std::move(all), length)));
     const Lang lang = setup.view.lang;

@@ -126,9 +126,7 @@ class CollisionPanel final : public FilmPanel {
                 time = {first - kShown - span.low, first - span.low};
             else if (context_.clock.span.low > shown_until && span.high > context_.clock.span.low)
                 time = {context_.clock.span.low - span.low, std::min(span.high, context_.clock.span.high) - span.low};
-            c.words = (context_.members() > 1 ? context_.look.translate("$t$_{0}: first touch")
-                                              : context_.look.translate("Collision {}", spans_[which].number)) +
-                      ", ";
+            if (context_.members() == 1) c.words = context_.look.translate("Collision {}", spans_[which].number) + ", ";
         }
         const Prefix prefix = time.high < 1 ? prefix_for(time.high) : Prefix{"", 1};
         c.set_time(time, prefix.factor, fmt::format("($t$ − $t$_{{0}}) / {}s", prefix.symbol));

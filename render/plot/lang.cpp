@@ -78,7 +78,6 @@ constexpr Phrase kPhrases[] = {
     {"{} speed", "{} 倍速"},
     {"frozen", "定格"},
     {"Collision {}", "碰撞 {}"},
-    {"$t$_{0}: first touch", "$t$_{0}：首次接触"},
     {"turns", "圈"},
     {"sticks", "粘着"},
     {"slides", "滑动"},

@@ -118,9 +118,11 @@ std::string energy_at_apex(double touch, double apex, const sim::Problem& proble
     for (const Part& each : sources) all += std::max(each.size, 0.0);
     if (!(all > 0)) return {};
     std::string from, to;
+    int shown = 0;
     for (const Part& each : sources)  // parts below half a percent are left out
         if (each.size > 0.005 * all)
-            from += (from.empty() ? "" : ", ") + phrase(lang, each.name, quantity(each.size, "J"));
+            from += (shown++ == 0 ? "" : ", ") + phrase(lang, each.name, quantity(each.size, "J"));
+    if (shown > 1) from = fmt::format("{} ({})", quantity(all, "J"), from);
     double used = 0, told = 0;  // the rounded steps of the sum add up to 100 %
     for (const Part& each : uses)
         if (const double percent = std::round(100 * (used += std::max(each.size, 0.0)) / all) - told; percent > 0)

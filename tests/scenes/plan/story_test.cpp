@@ -72,6 +72,14 @@ TEST(Story, ImpactTellsWhatBecameOfTheEnergy) {
     EXPECT_THAT(texts(film_of(kRigid, "impact")).back(), HasSubstr("at the touch: 25\u00A0% rebound, 75\u00A0% lost"));
 }
 
+// Shares are those of the sum that the text begins with.
+TEST(Story, ImpactTellsTheSumOfTheEnergies) {
+    const std::string fast = R"("beam": {"model": "rigid"}, "cam": {"speed": 30, "phase": 1}, "time": {"end": 2}, )";
+    EXPECT_THAT(
+        texts(film_of(fast, "impact")).back(),
+        ::testing::ContainsRegex("^energy [0-9.]+.+J \\([0-9.]+.+J at the touch, [0-9.]+.+J from the cam\\): "));
+}
+
 TEST(Story, ImpactTellsTheFirstCollisionAfterItsBeginning) {
     const double second = motion_of(kFlexible, 1).collisions.at(1).t_start;
     EXPECT_NEAR(shown_at(film_of(kFlexible, "impact", R"(, "from": "apex:1")"), "touches"), second, 1e-3);
