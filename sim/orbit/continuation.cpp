@@ -26,6 +26,8 @@ constexpr double kArcShrink = 0.3, kArcGrowth = 1.4;  // step factors after fail
 constexpr double kLeastCosine = 0.98;                 // between the tangents of neighbouring points
 constexpr double kOnCircle = 1e-7;  // of |μ|² − 1: rounding, as of pairs that never leave the circle
 constexpr double kAtTip = 1e-6;     // of the beam's length: a branch that ends with a foot this close ends at a corner
+// The derivative of the section map errs by less than this share of itself; it is made of differences.
+constexpr double kDerivativeError = 3e-9;
 // Relative uncertainty of the parameter at which an interval of sustained contact vanishes: the impacts before it are
 // too slow to be separated.
 constexpr double kRestUncertainty = 3e-5;
@@ -105,16 +107,33 @@ double value_at(const std::optional<ArcPoint>& point, const Test& test) {
     return point ? test(*point) : std::numeric_limits<double>::quiet_NaN();
 }
 
-// The point at which the test changes its sign between two places with known values, if it does.
+// How much the error of the derivative changes the test.
+double test_error(ArcPoint point, const Test& test) {
+    const double value = test(point);
+    point.derivative *= 1 + kDerivativeError;
+    for (auto& mu : point.orbit.multipliers) mu *= 1 + kDerivativeError;
+    return std::fabs(test(point) - value);
+}
+
+// The point at which the test changes its sign between two places with known values, if it does, and the uncertainty of
+// its place.
 struct TestedPlace {
     double place, value;
 };
+struct Crossing {
+    ArcPoint point;
+    double uncertainty;
+};
 template <class PointAt>
-std::optional<ArcPoint> sign_change(const PointAt& point, const Test& test, const TestedPlace& a,
+std::optional<Crossing> sign_change(const PointAt& point, const Test& test, const TestedPlace& a,
                                     const TestedPlace& b) {
     if (!std::isfinite(a.value * b.value) || std::signbit(a.value) == std::signbit(b.value)) return std::nullopt;
     const auto value = [&](double place) { return value_at(point(place), test); };
-    return point(find_root(value, a.place, b.place, a.value, b.value));
+    auto found = point(find_root(value, a.place, b.place, a.value, b.value));
+    if (!found) return std::nullopt;
+    const double slope = (b.value - a.value) / (b.place - a.place);
+    const double uncertainty = test_error(*found, test) / std::fabs(slope);
+    return Crossing{std::move(*found), uncertainty};
 }
 
 constexpr const char* kRangeEnds = "the range ends";
@@ -147,9 +166,9 @@ class Continuation {
     Attempt attempt(const Walk& walk) const;
     Then overcome(Walk& walk, const Attempt& tried, Branch& branch, std::string& end);
     void advance(Walk& walk, Attempt found, Branch& branch);
-    std::optional<ArcPoint> root(const ArcPoint& a, const ArcPoint& b, const Test& test) const;
-    std::optional<ArcPoint> doubling_of_half(const ArcPoint& near) const;
-    void add(OrbitChange change, const ArcPoint& point, Branch& branch) const;
+    std::optional<Crossing> root(const ArcPoint& a, const ArcPoint& b, const Test& test) const;
+    std::optional<Crossing> doubling_of_half(const ArcPoint& near) const;
+    void add(OrbitChange change, const Crossing& crossing, Branch& branch) const;
     void locate(const ArcPoint& a, const ArcPoint& b, OrbitChange change, const Test& test, Branch& branch) const;
     bool locate_turn(const ArcPoint& a, const ArcPoint& b, Branch& branch) const;
     bool find_changes(const ArcPoint& a, const ArcPoint& b, Branch& branch) const;
@@ -165,27 +184,33 @@ class Continuation {
     const Work& work_;
 };
 
-std::optional<ArcPoint> Continuation::root(const ArcPoint& a, const ArcPoint& b, const Test& test) const {
+// The uncertainty is that of the share of the range.
+std::optional<Crossing> Continuation::root(const ArcPoint& a, const ArcPoint& b, const Test& test) const {
     const auto point = [&](double s) { return arc_.correct(cubic(a, b, s), a.tangent); };
-    return sign_change(point, test, {0, test(a)}, {a.tangent.dot(b.z - a.z), test(b)});
+    auto crossing = sign_change(point, test, {0, test(a)}, {a.tangent.dot(b.z - a.z), test(b)});
+    if (crossing) crossing->uncertainty *= std::fabs(fold_test(crossing->point));
+    return crossing;
 }
 
-// The residual of a point lets its parameter err as far.
-void Continuation::add(OrbitChange change, const ArcPoint& point, Branch& branch) const {
+// The parameter errs by the residual of the point and by the error of the test.
+void Continuation::add(OrbitChange change, const Crossing& crossing, Branch& branch) const {
     const double range = std::fabs(request_.to - request_.from);
-    branch.special.push_back({change, arc_.branch_point(point), kArcConverged * range});
+    const BranchPoint at = arc_.branch_point(crossing.point);
+    const double residual = kArcConverged * std::max(range, std::fabs(at.parameter));
+    branch.special.push_back({change, at, residual + range * crossing.uncertainty});
 }
 
 void Continuation::locate(const ArcPoint& a, const ArcPoint& b, OrbitChange change, const Test& test,
                           Branch& branch) const {
-    const auto point = root(a, b, test);
-    if (!point) return;
-    if (change == OrbitChange::neimark_sacker && !circle_of(*point).complex) return;  // a saddle with μ_iμ_j = 1
-    add(change, *point, branch);
+    const auto crossing = root(a, b, test);
+    if (!crossing) return;
+    // A saddle with μ_iμ_j = 1 is no change.
+    if (change == OrbitChange::neimark_sacker && !circle_of(crossing->point).complex) return;
+    add(change, *crossing, branch);
 }
 
 // The period doubling of the orbit with half as many turns that is nearest to this point.
-std::optional<ArcPoint> Continuation::doubling_of_half(const ArcPoint& near) const {
+std::optional<Crossing> Continuation::doubling_of_half(const ArcPoint& near) const {
     const BranchArc half = arc_.of_turns(near.orbit.turns / 2);
     const Eigen::Index n = near.z.size() - 1;
     const auto point = [&](double share) {
@@ -203,12 +228,13 @@ std::optional<ArcPoint> Continuation::doubling_of_half(const ArcPoint& near) con
 bool Continuation::locate_turn(const ArcPoint& a, const ArcPoint& b, Branch& branch) const {
     const auto turn = root(a, b, fold_test);
     if (!turn) return false;
-    const bool twice = !turn->orbit.impacts.empty() && repeats(turn->orbit, 2, kClose);
-    const auto origin = twice ? doubling_of_half(*turn) : std::nullopt;
+    const PeriodicOrbit& orbit = turn->point.orbit;
+    const bool twice = !orbit.impacts.empty() && repeats(orbit, 2, kClose);
+    const auto origin = twice ? doubling_of_half(turn->point) : std::nullopt;
     if (origin) {
         add(OrbitChange::period_doubling, *origin, branch);
-        branch.points.push_back(arc_.branch_point(*turn));
-    } else if (has_unit_multiplier(turn->orbit)) {
+        branch.points.push_back(arc_.branch_point(turn->point));
+    } else if (has_unit_multiplier(orbit)) {
         add(OrbitChange::fold, *turn, branch);
     }
     return origin.has_value();
@@ -233,7 +259,7 @@ bool Continuation::find_changes(const ArcPoint& a, const ArcPoint& b, Branch& br
     if (crosses_circle(a, b)) locate(a, b, OrbitChange::neimark_sacker, circle_test, branch);
     const Test beyond_start = [this](const ArcPoint& p) { return p.z[p.z.size() - 1] - start_; };
     if (changes(beyond_start))
-        if (auto passage = root(a, b, beyond_start)) branch.at_start.push_back(std::move(passage->orbit));
+        if (auto passage = root(a, b, beyond_start)) branch.at_start.push_back(std::move(passage->point.orbit));
     return false;
 }
 

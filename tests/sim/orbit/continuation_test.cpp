@@ -33,6 +33,12 @@ std::vector<Branch> branches_of(const Family& family, double from, const Continu
     return continue_orbit(family, {from, found.front()}, request);
 }
 
+// Within the stated uncertainty, which is at most 1e-8 of the value.
+void expect_at(const SpecialPoint& point, double parameter) {
+    EXPECT_NEAR(point.at.parameter, parameter, point.uncertainty);
+    EXPECT_LT(point.uncertainty, 1e-8 * std::fabs(parameter));
+}
+
 TEST(Continuation, FoldAndPeriodDoublingOfThePressedBeamAreThePublishedNumbers) {
     const PressedBeam b;
     const auto branches = branches_of([&](double w) { return b.problem(w); }, 46, {41, 53, 0.02, 500, 0});
@@ -40,8 +46,8 @@ TEST(Continuation, FoldAndPeriodDoublingOfThePressedBeamAreThePublishedNumbers) 
     const SpecialPoint* fold = first_of(branches.front(), OrbitChange::fold);
     const SpecialPoint* doubling = first_of(branches.front(), OrbitChange::period_doubling);
     ASSERT_TRUE(fold && doubling);
-    EXPECT_NEAR(fold->at.parameter, 42.23567502238, 1e-8);
-    EXPECT_NEAR(doubling->at.parameter, 50.86884987331, 1e-8);
+    expect_at(*fold, 42.23567502238);
+    expect_at(*doubling, 50.86884987331);
     // Traces 1 + r² and −(1 + r²), determinant r².
     EXPECT_NEAR(std::abs(fold->at.orbit.multipliers[0] - 1.0), 0, 1e-5);  // a double root of the trace
     EXPECT_NEAR(std::abs(doubling->at.orbit.multipliers[0] + 1.0), 0, 1e-9);
@@ -67,8 +73,8 @@ TEST(Continuation, FoldAndPeriodDoublingOfOtherBeamsAreThoseOfTheClosedForm) {
         const double strike = fold->at.orbit.impacts.front().cam_angle;
         EXPECT_NEAR(b.curve(strike), 0, 1e-6 * b.eccentricity);
         const double needed = b.alpha * std::numbers::pi * (1 - r) / (1 + r);  // ω θ̇_c
-        EXPECT_NEAR(fold->at.parameter, std::sqrt(needed / -b.slope(strike)), 1e-8 * fold->at.parameter);
-        EXPECT_NEAR(doubling->at.parameter, pd, 1e-8 * pd);
+        expect_at(*fold, std::sqrt(needed / -b.slope(strike)));
+        expect_at(*doubling, pd);
     }
 }
 
@@ -81,8 +87,8 @@ TEST(Continuation, ACamThatTurnsTheOtherWayHasItsOwnFoldAndPeriodDoubling) {
     const SpecialPoint* fold = first_of(branches.front(), OrbitChange::fold);
     const SpecialPoint* doubling = first_of(branches.front(), OrbitChange::period_doubling);
     ASSERT_TRUE(fold && doubling);
-    EXPECT_NEAR(fold->at.parameter, -42.605964032422, 1e-8);
-    EXPECT_NEAR(doubling->at.parameter, -51.499496475255, 1e-8);
+    expect_at(*fold, -42.605964032422);
+    expect_at(*doubling, -51.499496475255);
 }
 
 // A cam of vanishing eccentricity is a table that shakes harmonically: Γ = Aω²/α with the amplitude A of θ_c. With k
@@ -145,7 +151,7 @@ TEST(Continuation, ABranchOfDoubledPeriodEndsAtThePeriodDoubling) {
     EXPECT_EQ(first_of(branch, OrbitChange::fold), nullptr);
     const SpecialPoint* origin = first_of(branch, OrbitChange::period_doubling);
     ASSERT_TRUE(origin);
-    EXPECT_NEAR(origin->at.parameter, 50.86884987331, 1e-8);
+    expect_at(*origin, 50.86884987331);
     EXPECT_EQ(origin->at.orbit.turns, 1);
     EXPECT_EQ(branch.special.size(), 1u);
     EXPECT_NE(branch.first_end.find("repeats itself after 1 turn"), std::string::npos) << branch.first_end;
