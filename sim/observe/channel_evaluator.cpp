@@ -105,7 +105,7 @@ double ChannelEvaluator::value(Channel channel) {
         case ChannelKind::energy_residual:
             return energy_balance().total() - start_total_;
         case ChannelKind::root_moment:
-            return loads().moment(0);
+            return root_moment();
         case ChannelKind::stress_max:
         case ChannelKind::stress_x:
             return stress(channel.kind);
@@ -235,6 +235,14 @@ double ChannelEvaluator::stress(ChannelKind kind) {
     if (kind == ChannelKind::stress_x) return largest_moment_.x;
     const SectionProperties section = section_properties(system_.problem().beam);
     return largest_moment_.y * section.c_max / section.second_moment;
+}
+
+// A hub that turns freely has the balance I_h θ̈ = τ + M(0) + a e × S, S the force of the beam on it (S96)
+double ChannelEvaluator::root_moment() {
+    if (system_.drive().prescribed()) return loads().moment(0);
+    const Hub& hub = system_.problem().hub;
+    const double across = hub.radius > 0 ? dot(perp(unit(model().hub_angle())), loads().pivot_force()) : 0;
+    return hub.inertia * hub_acceleration() - system_.hub_torque(t_) + hub.radius * across;
 }
 
 double ChannelEvaluator::pivot(ChannelKind kind) {

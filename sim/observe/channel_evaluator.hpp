@@ -48,6 +48,7 @@ class ChannelEvaluator {
     double resisted_force();
     const BeamLoads& resisted_loads();
     double stress(ChannelKind kind);
+    double root_moment();
     double pivot(ChannelKind kind);
     double drive_power();
 

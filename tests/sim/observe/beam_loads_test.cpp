@@ -94,6 +94,35 @@ TEST(BeamLoads, OfAFallingRodAreThoseOfTheFallingChimney) {
     }
 }
 
+// θ̈ = −m g l cos θ/J, and M(0) moves the beam about its root.
+TEST(BeamLoads, OfAFallingRodOnAHubAreThoseOfItsRotation) {
+    Problem p = falling_beam(ModelKind::rigid);
+    const double a = p.hub.radius = 0.2, length = p.beam.length;
+    p.hub.inertia = 0.05;
+    const double inertia = p.hub.inertia + mass(p) * (a * a + a * length + length * length / 3);
+    for (const double t : {0.0, 0.3}) {
+        const double cosine = std::cos(at(p, "theta", t));
+        const double acceleration = -weight(p) * (a + 0.5 * length) * cosine / inertia;
+        const double turning = mass(p) * (0.5 * a * length + length * length / 3) * acceleration;
+        EXPECT_NEAR(at(p, "root_moment", t), -turning - 0.5 * weight(p) * length * cosine, 1e-9);
+    }
+}
+
+// A hinge carries no moment, not even in a collision that bends the beam far.
+TEST(BeamLoads, OfAHubWithoutInertiaHaveNoMomentAtTheRoot) {
+    for (const ModelKind model : {ModelKind::zeroth_order, ModelKind::first_order, ModelKind::exact}) {
+        Problem p = fixed_cam(model, 3);
+        p.beam.youngs_modulus *= 1e-2;
+        Request request;
+        request.end_time = 0.6;
+        request.extrema = {channel("root_moment"), channel("contact_force"), channel("tip_deflection")};
+        const auto found = simulate(p, request).extrema;
+        EXPECT_GT(found[1].max, 0) << name(model);
+        EXPECT_GT(found[2].max - found[2].min, 0.05 * p.beam.length) << name(model);
+        EXPECT_LT(std::max(found[0].max, -found[0].min), 1e-9) << name(model);
+    }
+}
+
 // With q = ρAg cos θ and without an offset the beam is a lever on the disc, N x_c = ½ q L², and bends most over it.
 TEST(BeamLoads, OfABeamThatRestsOnTheCamAreThoseOfALever) {
     for (const int modes : {1, 2, 8}) {

@@ -45,9 +45,6 @@ bool is_magnitude(Channel c) {
            c.kind == ChannelKind::tip_acceleration;
 }
 
-// The moment at the root of a free hub without inertia is zero, but for the rounding of forces and levers.
-constexpr double kRoundedMoment = 1e-9;  // [N m]
-
 // Samples never exceed an extremum, and at its instant they reach it.
 void expect_true_extrema(const Problem& problem, double end, int count, const std::vector<Channel>& channels) {
     Request request;
@@ -63,8 +60,7 @@ void expect_true_extrema(const Problem& problem, double end, int count, const st
     for (std::size_t c = 0; c < channels.size(); ++c) {
         const Extremum& e = found.extrema[c];
         const auto [low, high] = std::ranges::minmax(dense.values[c]);
-        const double errors = channels[c].kind == ChannelKind::root_moment ? kRoundedMoment : kErrors;
-        const double share = std::max(kShare * (e.max - e.min), errors);
+        const double share = std::max(kShare * (e.max - e.min), kErrors);
         if (!is_magnitude(channels[c])) {
             EXPECT_GE(low, e.min - share) << name(channels[c]) << " at " << e.t_min << " of " << e.min;
         }
