@@ -29,7 +29,8 @@ void TrajectoryOutput::visit(SceneVisitor& v) {
     v.number(
         sim::written_if(times.empty(), "rate"), rate, sim::dimension::kFrequency, sim::kPositive,
         "Rows at the times k/rate, and at the end. \"adaptive\": as many rows as the curves of the channels, drawn "
-        "from the start to the end, need to be within about 0.2 % of their ranges, so that peaks are complete; two "
+        "from the start to the end, need to be within about 0.2 % of the drawing's size, so that peaks are complete; "
+        "on the flank of a collision that is short in this drawing, values between two rows may err by more. Two "
         "rows at one time are the sides of a jump. Without \"channels\" those of single modes and the separation do "
         "not count.",
         "adaptive");
