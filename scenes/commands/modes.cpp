@@ -59,11 +59,13 @@ void act(const ModesArguments& args) {
 
 void add_modes(Program& program) {
     const auto [app, args] = add_command<ModesArguments>(
-        program, "modes", "Print the natural frequencies of the beam on its hub, at rest or rotating", act);
+        program, "modes",
+        "Print the natural frequencies of the beam on its hub, at rest or rotating, as many as beam.modes", act);
     add_examples(app, {"modes fall.json", "modes fall.json --speed 300rpm --json"});
     add_scene(app, args.scene, args.common);
     add_option(app, "--speed", args.speed, "RAD_S",
-               "Clamp the beam to a hub that rotates at this speed, for example 300rpm (default: a free hub at rest)");
+               "Clamp the beam to a hub that rotates at this speed, for example 300rpm (default: the hub of the scene, "
+               "at rest)");
     app.add_flag("--json", args.common.json,
                  "Print JSON, with mass-normalized mode shapes (tip positive) and their coordinates q");
 }

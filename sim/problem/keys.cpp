@@ -139,8 +139,10 @@ static void visit(Visitor& v, Beam& beam) {
         "the bending stress. By default that of the section: its height, its diameter or 2 c_max; without a section "
         "√(12 I/A), that of a rectangle; for the default area and second moment 36.8 mm.");
     v.choice("model", beam.model, "Beam model, from rigid to the exact elastica.");
-    v.choice("basis", beam.basis,
-             "Shape functions; auto: cantilever for a prescribed drive and for the model paper, else hub-beam.");
+    v.choice(
+        "basis", beam.basis,
+        "Shape functions; auto: cantilever for a prescribed drive and for the model paper, else hub-beam. Cantilever "
+        "shapes on a free hub serve comparisons: rk8 integrates them, in steps shorter than the period of the last.");
     v.integer("modes", beam.modes, 1, 40, "Number N of shape functions.");
     v.numbers("damping_ratio", beam.damping_ratio, dim::kNone, kNotNegative, {.min = 1, .or_one_number = true},
               "Modal damping ratio ζ: one number for all modes, or one for each mode; by default none. Excludes "
@@ -317,9 +319,10 @@ static void visit(Visitor& v, InitialContact& contact) {
 
 static void visit_initial(Visitor& v, Initial& initial, ModelKind model) {
     const bool angles = model == ModelKind::exact;
-    v.number("angle", initial.angle, dim::kAngle, kAny, "Hub angle θ(0), counter-clockwise from the horizontal.");
+    v.number("angle", initial.angle, dim::kAngle, kAny,
+             "Hub angle θ(0), counter-clockwise from the horizontal; a drive with a table of angles replaces it.");
     v.number("angular_velocity", initial.angular_velocity, dim::kAngularSpeed, kAny,
-             "Angular velocity of the hub; the beam rotates rigidly with it.");
+             "Angular velocity of the hub; the beam rotates rigidly with it. A prescribed drive replaces it.");
     v.choice("shape", initial.shape,
              "straight: undeformed; static: equilibrium with a fixed hub; resting: equilibrium on the cam.");
     v.numbers(
