@@ -221,11 +221,14 @@ class CurveTable {
         if (column < columns_.size() && !curve.value.empty()) fill(curve.value);
     }
 
-    // "θ / rad", after the name of the curve if the panel has several, and with a number if it is taken.
+    // "θ / rad"; after the name of a curve that is not listed in the label, and with a number if it is taken.
     std::string name_of(const Panel& panel, const Axis& axis, const Series& curve) const {
         const std::string own = !curve.name.empty() ? curve.name : curve.label, quantity = to_plain(axis.label);
-        const bool alone = own.empty() || quantity.starts_with(to_plain(own) + " / ");
-        std::string name = alone ? quantity : to_plain(own) + ": " + quantity;
+        const std::size_t unit = std::min(quantity.rfind(" / "), quantity.size());
+        const bool listed = (", " + quantity.substr(0, unit) + ",").find(", " + to_plain(own) + ",") != quantity.npos;
+        std::string name = own.empty() ? quantity
+                           : listed    ? to_plain(own) + quantity.substr(unit)
+                                       : to_plain(own) + ": " + quantity;
         const auto taken = [&](const std::string& other) {
             return other == key_ || std::ranges::find(columns_, other, &CurveColumn::name) != columns_.end();
         };

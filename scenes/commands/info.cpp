@@ -25,8 +25,9 @@ struct Provenance {
     std::string file, kind;                    // "PNG picture", "film", "SVG figure", "PDF figure", "table", "record"
     std::map<std::string, std::string> facts;  // size, frames, codec …
     std::string version, title, accuracy;
-    std::string scene;  // JSON text; empty: the file contains none
-    bool made_by_beamcam() const { return !version.empty() || !scene.empty(); }
+    std::string scene;    // JSON text; empty: the file contains none
+    bool listed = false;  // in the list of files beside it
+    bool made_by_beamcam() const { return listed || !version.empty() || !scene.empty(); }
 };
 
 // ---- reading ---------------------------------------------------------------------------------------
@@ -82,6 +83,7 @@ void read_film(const std::string& file, Provenance& p) {
 void read_file_list(const std::string& file, Provenance& p) {
     const auto record = output::FileList::find(file);
     if (!record) return;
+    p.listed = true;
     p.version = record->origin.version;
     p.scene = record->origin.scene;
     p.facts["changed_since"] = record->unchanged ? "no" : "yes";
@@ -132,7 +134,7 @@ std::string provenance_text(const Provenance& p) {
         line("made by", "not by beamcam, or the metadata is lost");
         return text;
     }
-    line("made by", "beamcam " + p.version);
+    line("made by", p.version.empty() ? "beamcam" : "beamcam " + p.version);
     line("accuracy", p.accuracy);
     line("scene", p.scene.empty() ? "none" : "--scene prints it");
     return text;

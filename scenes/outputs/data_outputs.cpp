@@ -37,6 +37,7 @@ void TrajectoryOutput::visit(SceneVisitor& v) {
     v.numbers("times", times, sim::dimension::kTime, kFromStart, {1}, "Rows at exactly these times, in this order.");
     v.exclusive("rate", "times");
     v.check([this](ObjectReader& r) {
+        if (!times.empty()) check_end(r, "times", std::ranges::max(times));
         constexpr double kMostRows = 20'000'000;  // 160 MB for each channel
         const double count = rate.value_or(0) * r.context().scene.end_time;
         if (count > kMostRows)
@@ -111,6 +112,8 @@ void plan(Planner& planner, const StateOutput& state, const ResolvedOutput& reso
 
 static std::string write(const StateOutput& state, const DataFile& data, const DataSource& from) {
     Scene next;
+    next.title = from.scene.title;
+    next.units = from.scene.units;
     next.end_time = from.scene.end_time > state.at ? from.scene.end_time - state.at : from.scene.end_time;
     next.problem = from.run.states[data.index].value();
     const std::string json = to_json(next);

@@ -460,6 +460,9 @@ TEST(FigureData, HasAColumnForEachCurve) {
     EXPECT_THAT(data_csv(figure), HasSubstr("t / s,θ / rad\n"));  // the quantity of its axis
     figure.panels[0].series[0].name = "mean";
     EXPECT_THAT(data_csv(figure), HasSubstr("t / s,mean: θ / rad\n"));
+    figure.panels[0].series[0].name = "ψ";
+    figure.panels[0].y.label = "θ, ψ / rad";  // of a panel with two channels
+    EXPECT_THAT(data_csv(figure), HasSubstr("t / s,ψ / rad\n"));
 }
 
 // The pale part of a curve, which is drawn first, is later in time; another curve has other instants.

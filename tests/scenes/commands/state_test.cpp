@@ -49,13 +49,16 @@ TEST(State, ContinuesTheMotionInFlightAndInContact) {
 
 TEST(State, IsAnOutputAndGoesToStandardOutput) {
     const Folder folder;
-    folder.write("s.json", R"({"time": {"end": 0.4}, "outputs": [{"type": "state", "at": "100 ms"}]})");
+    folder.write("s.json", R"({"title": "A, B", "cam": {"speed": "60 deg/s"}, "time": {"end": 0.4},
+        "outputs": [{"type": "state", "at": "100 ms"}]})");
     ASSERT_EQ(shell(folder, "$BEAMCAM run s.json -q").code, 0);
     const Finished printed = shell(folder, "$BEAMCAM simulate s.json -q --state-at 0.1");
     EXPECT_EQ(printed.out, testing::slurp(folder / "s-state.json"));
     const nlohmann::json state = nlohmann::json::parse(printed.out);
     EXPECT_NEAR(state["time"]["end"].get<double>(), 0.3, 1e-15);
-    EXPECT_NEAR(state["cam"]["phase"].get<double>(), -0.1, 1e-15);
+    EXPECT_NEAR(state["cam"]["phase"].get<double>(), -0.1 * std::acos(-1) / 3, 1e-15);
+    EXPECT_EQ(state["title"], "A, B");
+    EXPECT_EQ(state["units"]["speed"], "deg/s");
     EXPECT_FALSE(state["initial"].contains("contact"));
 }
 

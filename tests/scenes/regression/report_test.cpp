@@ -25,6 +25,7 @@ TEST(Report, IsAPageWithoutScriptsOrAnythingInline) {
         EXPECT_THAT(page, Not(HasSubstr(std::string(forbidden) + (forbidden[0] == ' ' ? "input=" : ""))));
     for (const char* view : {"fall-0-actual", "fall-0-expected", "fall-0-blink", "fall-0-difference", "show-failed"})
         EXPECT_THAT(page, HasSubstr("id=\"" + std::string(view) + "\""));
+    EXPECT_THAT(shell(folder, "$BEAMCAM info r/index.html").out, HasSubstr("made by        beamcam\n"));
     EXPECT_THAT(slurp(folder / "r/report.css"), HasSubstr("#show-failed:checked ~ main .passes"));
 }
 
