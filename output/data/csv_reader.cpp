@@ -358,12 +358,11 @@ class CsvParser {
         const bool infinite = found && std::isinf(found->value) && column.name != "exponent";  // −∞ is an exponent
         if (found && !other_sign && !infinite) return column.values.push_back(found->value);
         if (column.problem.empty())
-            column.problem =
-                place_of(row, cell) + in_quotes(unquoted(cell)) +
-                (other_sign ? " has another decimal sign than the numbers above"
-                 : infinite ? " is not a finite number; leave cells without a value empty"
-                            : (cell.find(':') == cell.npos ? " is not a number; correct this cell, or leave it empty"
-                                                           : " is not a number; write times in seconds"));
+            column.problem = place_of(row, cell) + in_quotes(unquoted(cell)) +
+                             (other_sign ? " has another decimal sign than the numbers above"
+                              : infinite ? " is not a finite number"
+                                         : (cell.find(':') == cell.npos ? " is not a number; correct this cell"
+                                                                        : " is not a number; write times in seconds"));
         column.texts.resize(column.values.size());
         column.texts.push_back(unquoted(cell));
         column.values.push_back(kNothing);

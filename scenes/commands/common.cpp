@@ -100,7 +100,7 @@ Scene load_scene_with_output(const std::string& path, const Common& common) {
     reading.scene->output_places.push_back(path);
     if (const std::string problem = problem_with_span(film.span, reading.scene->end_time); !problem.empty()) {
         const Node &time = reading.root.find("time")->value, &end = time.find("end")->value;  // not the default
-        reading.messages.push_back({end.place, "time.end: " + problem, true});
+        reading.messages.push_back({end.place, "time.end: a scene without outputs makes a film: " + problem, true});
         reading.scene.reset();
     }
     return scene_of(std::move(reading), common);

@@ -57,6 +57,12 @@ void add_note(CLI::App& app, const std::string& note) {
     app.footer(text);
 }
 
+std::string missing_value(const std::string& word) {
+    const bool option =
+        word.size() > 1 && word[0] == '-' && (word[1] == '-' || std::isalpha(static_cast<unsigned char>(word[1])));
+    return option ? fmt::format("a value is missing before {}", word) : "";
+}
+
 CLI::Option* add_list(CLI::App& app, const std::string& names, std::vector<std::string>& values,
                       const std::string& placeholder, const std::string& meaning) {
     const auto store = [&values, names](const std::vector<std::string>& words) {
@@ -70,7 +76,8 @@ CLI::Option* add_list(CLI::App& app, const std::string& names, std::vector<std::
     };
     return app.add_option_function<std::vector<std::string>>(names, store, meaning)
         ->type_name(placeholder)
-        ->allow_extra_args(false);
+        ->allow_extra_args(false)
+        ->check(missing_value, "");
 }
 
 CLI::Option* one_of(CLI::Option* option, const std::vector<std::string>& words) {

@@ -77,11 +77,17 @@ AddedCommand<Arguments> add_command(Program& program, const std::string& name, c
 void add_examples(CLI::App& app, std::initializer_list<const char*> examples);
 void add_note(CLI::App& app, const std::string& note);
 
+// Why the word after an option is not its value: "-o" after "--theme"; empty: it may be.
+std::string missing_value(const std::string& word);
+
 // An option with one value, which a vector collects where the option is repeated.
 template <class Value>
 CLI::Option* add_option(CLI::App& app, const std::string& names, Value& value, const std::string& placeholder,
                         const std::string& meaning) {
-    return app.add_option(names, value, meaning)->type_name(placeholder)->allow_extra_args(false);
+    return app.add_option(names, value, meaning)
+        ->type_name(placeholder)
+        ->allow_extra_args(false)
+        ->check(missing_value, "");
 }
 // Values that are separated by commas; an empty one, as in "45deg,,3", is an error.
 CLI::Option* add_list(CLI::App& app, const std::string& names, std::vector<std::string>& values,

@@ -118,7 +118,6 @@ constexpr Absent kAbsent[] = {
     {WordKind::other, "--annotate", "it was withdrawn; --report writes a page, --junit a file for CI services"},
     {WordKind::other, "--text", "it was withdrawn: texts are drawn as outlines"},
 
-    {WordKind::other, ".apng .eps .glb .tif .tiff .vtt .srt", "this format was withdrawn"},
     {WordKind::other, ".pdf .svg", "figures and beamcam render --at T -o FILE are drawn as .pdf and .svg"},
 };
 

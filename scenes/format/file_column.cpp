@@ -13,9 +13,10 @@
 namespace beamcam::scenes {
 
 std::optional<std::pair<std::string, std::string>> file_column_in(std::string_view text) {
+    if (!text.starts_with('@')) return std::nullopt;
     const std::size_t colon = text.rfind(':');
-    if (!text.starts_with('@') || colon == text.npos || colon < 2 || colon + 1 == text.size()) return std::nullopt;
-    return std::pair(std::string(text.substr(1, colon - 1)), std::string(text.substr(colon + 1)));
+    return std::pair(std::string(text.substr(1, colon - 1)),
+                     std::string(colon == text.npos ? "" : text.substr(colon + 1)));
 }
 
 FileColumn column_in_si(const output::ColumnTable& table, const std::string& file, const std::string& column,

@@ -13,7 +13,7 @@
 
 namespace beamcam::scenes {
 
-// The file and the column; nothing if the text does not begin with @ or has no colon.
+// The file and the column, which is empty if the text has no colon; nothing if the text does not begin with @.
 std::optional<std::pair<std::string, std::string>> file_column_in(std::string_view text);
 
 // The numbers of a column, or the reason why there are none. They are in SI units if `unit`, or else the file, states a

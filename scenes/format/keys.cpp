@@ -81,7 +81,8 @@ void visit(SceneVisitor& v, Scene& scene) {
     v.check([&scene](ObjectReader& r) {
         check_physics(r, scene.problem);
         if (!r.diagnostics().any())
-            scene.notes = sim::assumptions(scene.problem, written_value(*r.node(), "contact.stiffness") != nullptr);
+            scene.notes = sim::assumptions(scene.problem, written_value(*r.node(), "contact.stiffness") != nullptr,
+                                           scene.end_time);
     });
     Sweep sweep = scene.sweep.value_or(Sweep{});
     bool swept = scene.sweep.has_value();

@@ -67,6 +67,21 @@ void ObjectReader::fail(const Node& node, std::string_view key, std::string text
     diagnostics_.error(node.place, path(key), std::move(text));
 }
 
+// Plain numbers outside of these, in SI units, are perhaps in the unit that catalogues use. Numbers with many digits
+// were computed.
+struct PlausibleRange {
+    sim::Dimension dimension;
+    double least, most;
+    const char* usual_unit;
+};
+constexpr PlausibleRange kPlausible[] = {{sim::dimension::kAngle, -6.5, 6.5, "deg"},
+                                         {sim::dimension::kLength, -10, 10, "mm"},
+                                         {sim::dimension::kArea, 0, 2, "mm^2"},
+                                         {sim::dimension::kSecondMoment, 0, 2, "mm^4"},
+                                         {sim::dimension::kDensity, 50, Range::kInfinity, "g/cm^3"},
+                                         {sim::dimension::kPressure, 1e4, Range::kInfinity, "GPa"}};
+constexpr std::size_t kFewDigits = 6;
+
 // ---- visited keys ------------------------------------------------------------------------------
 
 void ObjectReader::read_number(const Key& key, std::optional<double>& value, const Unit& unit, const Range& range,
@@ -81,11 +96,11 @@ void ObjectReader::read_number(const Key& key, std::optional<double>& value, con
         expect(*node, key.name, "{}a number", word ? fmt::format("\"{}\" or ", word) : "");
     else if (const auto read = ranged_value(*node, key.name, unit, range)) {
         value = read;
-        const bool whole = node->kind == Node::Kind::number && *read == std::round(*read);
-        if (whole && same(unit.dimension, sim::dimension::kAngle) && std::abs(*read) > 2 * std::numbers::pi)
-            warn(key.name, " = {0} is in rad, more than a turn; write \"{0} deg\" if degrees are meant", node->text);
-        if (whole && same(unit.dimension, sim::dimension::kLength) && *read >= 10)
-            warn(key.name, " = {0} is in m; write \"{0} mm\" if millimetres are meant", node->text);
+        for (const PlausibleRange& each : kPlausible)
+            if (node->kind == Node::Kind::number && node->text.size() <= kFewDigits &&
+                same(unit.dimension, each.dimension) && !(*read >= each.least && *read < each.most))
+                warn(key.name, " = {0} is in {1}; write \"{0} {2}\" if that is meant", node->text,
+                     si_unit(each.dimension), each.usual_unit);
     }
 }
 

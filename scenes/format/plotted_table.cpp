@@ -28,7 +28,9 @@ PlottedTable::Column column_of(ObjectReader& r, const output::TableColumn& from,
     if (column.unit.empty()) column.unit = unit_by_name(from.name, r.context().scene.problem), column.prefixed = true;
     if (shown.empty()) return column;
     const auto factor = column.unit.empty() ? std::optional(1.0) : factor_between(column.unit, shown);
-    if (!factor) r.reject(key, " = {}: the column {} is in {}", in_quotes(shown), in_quotes(from.name), column.unit);
+    if (!factor)
+        r.reject(key, " = {}: the column {} is in {}; leave the unit out, or draw this column alone", in_quotes(shown),
+                 in_quotes(from.name), column.unit);
     for (double& value : column.values) value *= factor.value_or(1);
     column.unit = shown, column.prefixed = false;
     return column;

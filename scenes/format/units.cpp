@@ -23,8 +23,8 @@ struct NamedUnit {
     std::string_view name;
     double factor;  // to SI, together with `decades`
     Dimension dimension;
-    int decades;  // power of ten, separate so that "36.8 mm" is exactly the double 0.0368
-    bool takes_prefix = false;
+    int decades;             // power of ten, separate so that "36.8 mm" is exactly the double 0.0368
+    int most_decades = -10;  // of its largest prefix: "MM" is no megametre, and "Grad" a German degree
 };
 
 // A product of units: value · 10^decades.
@@ -36,30 +36,30 @@ struct Scaled {
 
 // Factors are exact by definition (SI brochure, 9th ed.; inch and pound: the 1959 yard and pound agreement).
 constexpr NamedUnit kUnits[] = {
-    {"m", 1, {1, 0, 0, 0}, 0, true},
+    {"m", 1, {1, 0, 0, 0}, 0, 3},
     {"in", 0.0254, {1, 0, 0, 0}, 0},
     {"ft", 0.3048, {1, 0, 0, 0}, 0},
-    {"g", 1, {0, 1, 0, 0}, -3, true},
+    {"g", 1, {0, 1, 0, 0}, -3, 3},
     {"t", 1, {0, 1, 0, 0}, 3},
     {"lb", 0.45359237, {0, 1, 0, 0}, 0},
-    {"s", 1, {0, 0, 1, 0}, 0, true},
+    {"s", 1, {0, 0, 1, 0}, 0, 3},
     {"min", 60, {0, 0, 1, 0}, 0},
     {"h", 3600, {0, 0, 1, 0}, 0},
-    {"Hz", 1, {0, 0, -1, 0}, 0, true},
-    {"rad", 1, {0, 0, 0, 1}, 0, true},
+    {"Hz", 1, {0, 0, -1, 0}, 0, 9},
+    {"rad", 1, {0, 0, 0, 1}, 0, -1},
     {"deg", pi / 180, {0, 0, 0, 1}, 0},
     {"°", pi / 180, {0, 0, 0, 1}, 0},
     {"rev", 2 * pi, {0, 0, 0, 1}, 0},
     {"turn", 2 * pi, {0, 0, 0, 1}, 0},
     {"turns", 2 * pi, {0, 0, 0, 1}, 0},
     {"rpm", 2 * pi / 60, {0, 0, -1, 1}, 0},
-    {"N", 1, {1, 1, -2, 0}, 0, true},
+    {"N", 1, {1, 1, -2, 0}, 0, 9},
     {"lbf", 4.4482216152605, {1, 1, -2, 0}, 0},
-    {"Pa", 1, {-1, 1, -2, 0}, 0, true},
+    {"Pa", 1, {-1, 1, -2, 0}, 0, 9},
     {"bar", 1, {-1, 1, -2, 0}, 5},
     {"psi", 6894.757293168361, {-1, 1, -2, 0}, 0},
-    {"J", 1, {2, 1, -2, 0}, 0, true},
-    {"W", 1, {2, 1, -3, 0}, 0, true},
+    {"J", 1, {2, 1, -2, 0}, 0, 9},
+    {"W", 1, {2, 1, -3, 0}, 0, 9},
     {"%", 1, {}, -2},
 };
 
@@ -71,10 +71,7 @@ struct Prefix {
 constexpr Prefix kPrefixes[] = {{"n", -9}, {"u", -6}, {"µ", -6}, {"μ", -6}, {"m", -3},
                                 {"c", -2}, {"d", -1}, {"k", 3},  {"M", 6},  {"G", 9}};
 
-// No angle is a thousand radians: "Grad" is a German degree.
-bool takes(const NamedUnit& unit, const Prefix& prefix) {
-    return unit.takes_prefix && (prefix.decades < 0 || unit.dimension.angle == 0);
-}
+bool takes(const NamedUnit& unit, const Prefix& prefix) { return prefix.decades <= unit.most_decades; }
 
 std::optional<Scaled> named(std::string_view symbol) {
     for (const NamedUnit& unit : kUnits)

@@ -266,10 +266,10 @@ std::vector<Issue> check_arcs(const ArcsProfile& profile) {
         if (apart <= kTangent * size && difference <= kTangent * size)
             return {{key, "is a part of the same circle as the arc before it; remove one of them"}};
         if (!(std::fabs(apart - difference) <= kTangent * size))
-            return {
-                {key + ".radius", fmt::format("the arc is not tangent to the one before it: their centres are {:.8g} m "
-                                              "apart, but their radii differ by {:.8g} m; both must be equal",
-                                              apart, difference)}};
+            return {{key + ".radius",
+                     fmt::format("the arc is not tangent to the one before it: their centres are {:.8g} m "
+                                 "apart, but their radii differ by {:.8g} m; both must agree within {:.2g} m",
+                                 apart, difference, kTangent * size)}};
     }
     const std::vector<ProfileSpan> spans = spans_of(profile);
     double turn = 0;

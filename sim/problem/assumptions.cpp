@@ -63,6 +63,17 @@ std::string about_stiffness(Problem problem) {
                               contact_exponent(problem), contact);
 }
 
+// Of a table that ends before the motion; empty: it does not.
+std::string about_end_of_table(const Drive& drive, double end_time) {
+    const auto* torque = std::get_if<TorqueTable>(&drive);
+    const auto* angle = std::get_if<AngleTable>(&drive);
+    const double last = torque ? torque->t.back() : angle ? angle->t.back() : end_time;
+    if (!(last < end_time)) return "";
+    return fmt::format(
+        "hub.drive: the table ends at {:g} s, the motion at {:g} s; after the table {}", last, end_time,
+        torque ? fmt::format("the torque stays {:g} N m", torque->torque.back()) : "the hub keeps its speed");
+}
+
 }  // namespace
 
 // ω = ω_EB [1 − ½(βr)²(1 + E/(κG))], r² = I/A, E/G = 2(1 + ν), βL = (N − ½)π                                 (S99)
@@ -80,7 +91,7 @@ double static_slope(const Problem& problem) {
     return beam.line_density() * std::fabs(problem.gravity) * std::pow(beam.length, 3) / (6 * beam.bending_stiffness());
 }
 
-std::vector<std::string> assumptions(const Problem& problem, bool has_stiffness) {
+std::vector<std::string> assumptions(const Problem& problem, bool has_stiffness, double end_time) {
     std::vector<std::string> out;
     const bool own_beam = !is_of_the_paper(problem.beam);
     const bool own_cam = problem.cam && !is_of_the_paper(*problem.cam);
@@ -90,6 +101,8 @@ std::vector<std::string> assumptions(const Problem& problem, bool has_stiffness)
     }
     const bool needs_stiffness = problem.cam && problem.contact.model == ContactModel::compliant;
     if (needs_stiffness && !has_stiffness && (own_beam || own_cam)) out.push_back(about_stiffness(problem));
+    if (std::string text = about_end_of_table(problem.hub.drive, end_time); !text.empty())
+        out.push_back(std::move(text));
     return out;
 }
 

@@ -8,8 +8,8 @@
 
 namespace beamcam::sim {
 
-// "beam: …", "contact.stiffness: …"; `has_stiffness`: the scene gives a contact stiffness.
-std::vector<std::string> assumptions(const Problem& problem, bool has_stiffness);
+// "beam: …", "contact.stiffness: …"; `has_stiffness`: the scene gives a contact stiffness. `end_time` [s].
+std::vector<std::string> assumptions(const Problem& problem, bool has_stiffness, double end_time);
 
 // By which share shear and rotary inertia would lower the frequency of the highest shape, were it clamped (S99).
 double shear_correction(const Beam& beam);

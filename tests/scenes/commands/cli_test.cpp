@@ -163,6 +163,7 @@ TEST(CommandLine, WrongUsageIsTwo) {
           std::pair{"render s.json --at 1 -o none/x.png",
                     "none/x.png: No such file or directory; make the directory first"},
           std::pair{"render s.json --at 1 -o x.mp4", "-o x.mp4 must be a .png, .pdf or .svg file"},
+          std::pair{"figure s.json energy --horizon -o a.pdf", "beamcam: --horizon: a value is missing before -o"},
           std::pair{"render s.json --duration 1e9 -o a.mp4", "reduce \"duration\" or \"fps\""}})
         EXPECT_THAT(shell(folder, std::string("$BEAMCAM ") + arguments).err, HasSubstr(message));
     EXPECT_THAT(shell(folder, "$BEAMCAM rnder s.json").err, HasSubstr("did you mean \"render\"?"));
@@ -297,7 +298,8 @@ TEST(CommandLine, CheckReportsEveryScene) {
     folder.write("short.json", R"({"time": {"end": "5 ms"}})");  // of the film that a scene without outputs yields
     const Finished brief = shell(folder, "$BEAMCAM check short.json");
     EXPECT_EQ(brief.code, 3);
-    EXPECT_THAT(brief.err, AllOf(HasSubstr("short.json:1:18: time.end: the film from 0 s to 0.005 s has no frame"),
+    EXPECT_THAT(brief.err, AllOf(HasSubstr("short.json:1:18: time.end: a scene without outputs makes a film: the film "
+                                           "from 0 s to 0.005 s has no frame"),
                                  HasSubstr("reduce \"speed\"")));
     EXPECT_EQ(shell(folder, "$BEAMCAM simulate short.json").code, 0);
 }

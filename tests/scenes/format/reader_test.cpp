@@ -309,19 +309,19 @@ TEST(Reader, ATypeThatIsLeftOutFollowsFromTheOtherKeys) {
                 ElementsAre(HasSubstr("needs \"type\", one of video")));
 }
 
-TEST(Reader, WholeNumbersOfRadiansBeyondATurnArePerhapsDegrees) {
-    const Reading reading = read(R"({"initial": {"angle": 45}, "cam": {"phase": 6.5}})");
+TEST(Reader, ShortPlainNumbersOfImplausibleSizeArePerhapsInAnotherUnit) {
+    const Reading reading = read(R"({"initial": {"angle": 45}, "cam": {"phase": 6.5e0, "speed": 7}})");
     EXPECT_TRUE(reading.scene);
     EXPECT_THAT(messages(reading),
-                ElementsAre("1:23 initial.angle = 45 is in rad, more than a turn; write \"45 deg\" if "
-                            "degrees are meant"));
+                ElementsAre("1:23 initial.angle = 45 is in rad; write \"45 deg\" if that is meant",
+                            "1:45 cam.phase = 6.5e0 is in rad; write \"6.5e0 deg\" if that is meant"));
+    EXPECT_THAT(messages(read(R"({"beam": {"length": 300, "area": 73, "second_moment": 8219, "density": 7.85,
+                                           "youngs_modulus": 210}})")),
+                AllOf(Contains(HasSubstr("beam.length = 300 is in m; write \"300 mm\" if that is meant")),
+                      Contains(HasSubstr("\"73 mm^2\"")), Contains(HasSubstr("\"8219 mm^4\"")),
+                      Contains(HasSubstr("\"7.85 g/cm^3\"")), Contains(HasSubstr("\"210 GPa\""))));
+    EXPECT_TRUE(messages(read(R"({"beam": {"length": "300 m"}, "cam": {"phase": 7.853981634}})")).empty());
     EXPECT_THAT(messages(read(R"({"beam": {"length": "12 inch"}})")), ElementsAre(HasSubstr("\"inch\"; write in")));
-}
-
-TEST(Reader, WholeNumbersOfTenMetresAndMoreArePerhapsMillimetres) {
-    EXPECT_THAT(messages(read(R"({"beam": {"length": 300}})")),
-                Contains("1:21 beam.length = 300 is in m; write \"300 mm\" if millimetres are meant"));
-    EXPECT_TRUE(messages(read(R"({"beam": {"length": "300 m"}})")).empty());
 }
 
 TEST(Reader, MessagesOfNumbersNameTheRemedy) {
@@ -394,6 +394,8 @@ TEST(Reader, AnOutlineIsReadFromAFile) {
     const auto error = [&](const std::string& keys) { return messages(read_profile(keys)); };
     EXPECT_THAT(error(R"("file": "none.csv", "x": "x [mm]", "y": "y")"), Contains(HasSubstr("none.csv")));
     EXPECT_THAT(error(R"("file": "cam.csv", "x": "x", "y": "z")"), Contains(HasSubstr("no column \"z\"")));
+    EXPECT_THAT(error(R"("file": "cam.csv", "x": "@cam.csv", "y": "y")"),
+                Contains(HasSubstr("no column \"\"; the choices are x [mm], y")));
     EXPECT_THAT(error(R"("file": "cam.csv", "x": "x [mm]", "y": "y", "units": {"y": "kg"})"),
                 Contains(HasSubstr("\"kg\" is not a unit of the column \"y\", which is measured in m")));
     folder.write("cam.csv", rows + "1;;2;3\n");

@@ -164,14 +164,20 @@ TEST(Hertz, HasTheExponentOfItsLaw) {
 }
 
 TEST(Assumptions, AreSaidOfABeamOfOnesOwn) {
-    EXPECT_TRUE(assumptions(Problem{}, false).empty());
-    EXPECT_EQ(assumptions(ruler(), false).size(), 3u);
-    EXPECT_EQ(assumptions(ruler(), true).size(), 2u);
+    EXPECT_TRUE(assumptions(Problem{}, false, 1).empty());
+    EXPECT_EQ(assumptions(ruler(), false, 1).size(), 3u);
+    EXPECT_EQ(assumptions(ruler(), true, 1).size(), 2u);
     Problem cam;
     cam.cam->radius = 0.09;
-    EXPECT_EQ(assumptions(cam, false).size(), 1u);
+    EXPECT_EQ(assumptions(cam, false, 1).size(), 1u);
     cam.contact.model = ContactModel::restitution;
-    EXPECT_TRUE(assumptions(cam, false).empty());
+    EXPECT_TRUE(assumptions(cam, false, 1).empty());
+    Problem driven;
+    driven.hub.drive = TorqueTable{{0, 0.5}, {0, 3}};
+    EXPECT_TRUE(assumptions(driven, true, 0.5).empty());
+    EXPECT_EQ(assumptions(driven, true, 1),
+              std::vector<std::string>{"hub.drive: the table ends at 0.5 s, the motion at "
+                                       "1 s; after the table the torque stays 3 N m"});
 }
 
 // A cantilever of steel under its weight: v′(L) = q L³/(6 E I).
