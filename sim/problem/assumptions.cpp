@@ -63,17 +63,6 @@ std::string about_stiffness(Problem problem) {
                               contact_exponent(problem), contact);
 }
 
-// Of a table that ends before the motion; empty: it does not.
-std::string about_end_of_table(const Drive& drive, double end_time) {
-    const auto* torque = std::get_if<TorqueTable>(&drive);
-    const auto* angle = std::get_if<AngleTable>(&drive);
-    const double last = torque ? torque->t.back() : angle ? angle->t.back() : end_time;
-    if (!(last < end_time)) return "";
-    return fmt::format(
-        "hub.drive: the table ends at {:g} s, the motion at {:g} s; after the table {}", last, end_time,
-        torque ? fmt::format("the torque stays {:g} N m", torque->torque.back()) : "the hub keeps its speed");
-}
-
 }  // namespace
 
 // ω = ω_EB [1 − ½(βr)²(1 + E/(κG))], r² = I/A, E/G = 2(1 + ν), βL = (N − ½)π                                 (S99)
@@ -101,8 +90,11 @@ std::vector<std::string> assumptions(const Problem& problem, bool has_stiffness,
     }
     const bool needs_stiffness = problem.cam && problem.contact.model == ContactModel::compliant;
     if (needs_stiffness && !has_stiffness && (own_beam || own_cam)) out.push_back(about_stiffness(problem));
-    if (std::string text = about_end_of_table(problem.hub.drive, end_time); !text.empty())
-        out.push_back(std::move(text));
+    const auto* torque = std::get_if<TorqueTable>(&problem.hub.drive);
+    const auto* angle = std::get_if<AngleTable>(&problem.hub.drive);
+    if (const double last = torque ? torque->t.back() : angle ? angle->t.back() : end_time; last < end_time)
+        out.push_back(fmt::format("hub.drive: after the table's last time, {:g} s, the {} stays constant", last,
+                                  torque ? "torque" : "speed"));
     return out;
 }
 

@@ -164,6 +164,7 @@ TEST(CommandLine, WrongUsageIsTwo) {
                     "none/x.png: No such file or directory; make the directory first"},
           std::pair{"render s.json --at 1 -o x.mp4", "-o x.mp4 must be a .png, .pdf or .svg file"},
           std::pair{"figure s.json energy --horizon -o a.pdf", "beamcam: --horizon: a value is missing before -o"},
+          std::pair{"simulate s.json --times 3", "warning: --times = 3 s is after the end of the scene"},
           std::pair{"render s.json --duration 1e9 -o a.mp4", "reduce \"duration\" or \"fps\""}})
         EXPECT_THAT(shell(folder, std::string("$BEAMCAM ") + arguments).err, HasSubstr(message));
     EXPECT_THAT(shell(folder, "$BEAMCAM rnder s.json").err, HasSubstr("did you mean \"render\"?"));

@@ -57,7 +57,8 @@ TEST(TableFigure, SaysWhatATableLacks) {
     EXPECT_THAT(told("--x cam.speed --channels force"),
                 HasSubstr("has no column \"force\"; did you mean \"force_peak\""));
     EXPECT_THAT(told("--x cam.speed --channels xyz"), HasSubstr("cam.speed, force_peak, stress_peak"));
-    EXPECT_THAT(told("--x cam.speed --channels force_peak --unit mm"), HasSubstr("the column \"force_peak\" is in N"));
+    EXPECT_THAT(told("--x cam.speed --channels force_peak --unit mm"),
+                HasSubstr("the column \"force_peak\" is in N; leave the unit out, or draw this column alone"));
     EXPECT_THAT(told("--x cam.speed --channels force_peak,stress_peak --label F"),
                 HasSubstr("several units and panels; name columns of one unit"));
     EXPECT_THAT(told("--x cam.speed --channels force_peak --impacts"), HasSubstr("--impacts needs a scene"));
