@@ -53,7 +53,7 @@ void CloseUpReadings::draw(Canvas& canvas, const sim::Pose& pose, double face) c
                           .align = HAlign::right,
                           .halo = on_beam ? mix(close_up_background(p), p.motion, 0.30) : close_up_background(p)};
     canvas.text({plot.right() - 10 * u, line},
-                context.look.translate(sticks(motion.problem, near.force, near.friction) ? "sticks" : "slides"), state);
+                context.look.translate(sticks(motion.problem, near.force, near.friction) ? "sticks" : "slips"), state);
 }
 
 }  // namespace beamcam::render

@@ -106,7 +106,7 @@ bool Film::Prepared::draw_header(Canvas& canvas) const {
     std::vector<const sim::Problem*> problems;
     for (int m = 0; m < context.members(); ++m) problems.push_back(&context.motion(m).problem);
     const ParameterLine line =
-        parameter_line(canvas, places, common_pieces(problems, context.look.lang, setup.units.speed));
+        parameter_line(canvas, places, compared_pieces(problems, context.labels, context.look.lang, setup.units.speed));
     for (const ParameterLine::Piece& piece : line.pieces)
         canvas.text(piece.baseline, piece.markup, {.size = line.size, .color = context.look.palette.muted});
     if (const auto& b = places.warning; b && !setup.warning.empty())

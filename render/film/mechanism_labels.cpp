@@ -185,8 +185,6 @@ void draw_force(const MechanismScene& s) {
     const Color color = s.at.palette.contact;
     const Vec2 flat_foot = s.at.px(arrow->foot), n{arrow->normal.x, -arrow->normal.y}, foot = s.on(flat_foot);
     const double head = 19 * marks, size = marks * std::min(1.0, length / (2 * head));  // a short arrow is a small one
-    s.canvas.circle(foot, 5 * size);
-    s.canvas.fill(color);
     s.canvas.arrow(foot, s.on(flat_foot + n * length), {color, 4 * size}, {19 * size});
     if (length > head)
         draw_letter(s, foot, s.on(flat_foot + n * force_label_distance(length, depth, s.at.unit)), "$F$", color);

@@ -62,15 +62,17 @@ void MechanismLegend::draw(Canvas& canvas, const MechanismView& at) const {
     names(canvas);
 }
 
-// Its length is round, near a seventh of the view.
+// Its length is round, near a seventh of the view, but not shorter than its text.
 void MechanismLegend::scale_bar(Canvas& canvas, const MechanismView& at) const {
-    const double length = round_down_125(0.17 * at.box.w / at.look.camera.scale);  // [m]
-    const double w = length * at.look.camera.scale, u = at_.unit;
     const TextStyle style{.size = at_.context.look.letters.words,
                           .color = at_.palette.muted,
                           .align = HAlign::centre,
                           .halo = at_.palette.paper};
+    const double scale = at.look.camera.scale, u = at_.unit;
+    double length = round_down_125(0.17 * at.box.w / scale);  // [m]
+    while (canvas.measure(quantity(length, "m"), style).w > length * scale) length = round_up_125(1.01 * length);
     const std::string text = quantity(length, "m");
+    const double w = length * scale;
     const double middle = at_.box.right() - 5 * u - std::max(w, canvas.measure(text, style).w) / 2;
     const double x = middle - w / 2, y = at_.box.bottom() - 8 * u;
     canvas.polyline(std::array<Vec2, 4>{{{x, y - 5 * u}, {x, y}, {x + w, y}, {x + w, y - 5 * u}}});

@@ -22,10 +22,10 @@ static std::optional<Box> box_of_name(const MechanismScene& s, const std::vector
 }
 
 // The straight beam at the angle of the hub, where the tip of the drawn beam is visibly elsewhere. In stills and in
-// slow motion of one motion, which give time to read it, the line has its name where there is room, and on the side
-// away from θ. The horizontal is a line of its own, and compared motions have lines of their own.
+// films of one motion that vibrates slowly, which give time to read it, the line has its name where there is room, and
+// on the side away from θ. The horizontal is a line of its own, and compared motions have lines of their own.
 void draw_undeflected(const MechanismScene& s) {
-    constexpr double kApart = 8, kSlow = 0.1;  // [design px]; of real time
+    constexpr double kApart = 8, kSlow = 0.4;  // [design px]; a period of the first vibration [s of the film]
     if (!s.at.labelled() || s.at.ghosts) return;
     const Vec2 along = sim::unit(s.pose.theta), tip = s.px(along * norm(s.beam.line.back()));
     const Vec2 apart = tip - s.px(s.beam.line.back());
@@ -40,7 +40,8 @@ void draw_undeflected(const MechanismScene& s) {
     }
     if (std::isnan(line.back().x)) return;
     const FilmSetup& setup = *s.at.context.setup;
-    const bool slow = setup.speeds.empty() ? setup.frames() == 1 : setup.speeds[std::size_t(s.frame)] <= kSlow;
+    const double speed = setup.frames() == 1 ? 0 : setup.speeds.empty() ? 1 : setup.speeds[std::size_t(s.frame)];
+    const bool slow = kSlow * speed <= s.at.context.scales.period;
     if (slow && s.at.context.members() == 1 && apart.y * along.y < 0) {
         const TextStyle style{.size = s.at.context.look.letters.words, .color = s.at.palette.muted};
         const std::string word = s.at.context.look.translate("undeflected");

@@ -170,8 +170,8 @@ static void add_data(const FilmContext& context, const PanelSpec& spec, ChartCon
         }
 }
 
-// The friction force of stick–slip friction has its limits beside it: it slides on ±μF, and sticks up to ±μ_s F, which
-// is dotted where it is another. The intervals in which it sticks are shaded. Returns the symbols for the heading.
+// The friction force of stick–slip friction has ±μF beside it, on which it slips. The intervals in which it sticks are
+// shaded. Returns the symbol for the heading.
 static std::string add_sticking(const FilmContext& context, const PanelSpec& spec, ChartContent& c) {
     const auto* law = std::get_if<sim::StickSlipFriction>(&context.setup->problem.contact.friction);
     const sim::Table& chart = context.setup->chart;
@@ -185,23 +185,19 @@ static std::string add_sticking(const FilmContext& context, const PanelSpec& spe
     for (std::size_t i = 0; i < t->size(); ++i) {
         if (!((*force)[i] > 0)) continue;
         const bool holds = sticks(context.setup->problem, (*force)[i], (*friction)[i]);
-        const std::string name = context.look.translate(holds ? "sticks" : "slides");
+        const std::string name = context.look.translate(holds ? "sticks" : "slips");
         if (i == 0 || spans.empty() || spans.back().to != (*t)[i - 1] || spans.back().label != name)
             spans.push_back({(*t)[i], (*t)[i], name, p.motion.faded(holds ? 0.13 : 0)});
         spans.back().to = (*t)[i];
     }
-    std::vector<double> limits{law->coefficient};
-    if (law->static_coefficient && *law->static_coefficient != law->coefficient)
-        limits.push_back(*law->static_coefficient);
-    for (std::size_t k = 0; k < limits.size(); ++k)
-        for (const double limit : {-limits[k], limits[k]}) {
-            figure::Series curve{.color = p.muted};
-            curve.faint = p.tint(p.muted, 0.25);
-            curve.dash = FilmContext::dash_of(k + 1);
-            for (std::size_t i = 0; i < t->size(); ++i) curve.add((*t)[i], limit * (*force)[i]);
-            c.panel.series.push_back(std::move(curve));
-        }
-    return limits.size() > 1 ? ", ±$μF$, ±$μ_{\\r{s}}F$" : ", ±$μF$";
+    for (const double limit : {-law->coefficient, law->coefficient}) {
+        figure::Series curve{.color = p.muted};
+        curve.faint = p.tint(p.muted, 0.25);
+        curve.dash = FilmContext::dash_of(1);
+        for (std::size_t i = 0; i < t->size(); ++i) curve.add((*t)[i], limit * (*force)[i]);
+        c.panel.series.push_back(std::move(curve));
+    }
+    return ", " + colored("±$μF$", p.muted);
 }
 
 ChartContent blank_content(const FilmContext& context, const PanelSpec& spec, int member) {
@@ -273,11 +269,10 @@ ChartContent strip_content(const FilmContext& context, const PanelSpec& spec) {
             c.panel.series.push_back(std::move(curve));
         }
     }
-    symbols += add_sticking(context, spec, c);
-    if (shows_peaks(spec)) {
-        c.rows = static_cast<std::size_t>(context.members());
-        c.peak = context.look.translate("peak") + "\u00A0";
-    }
+    if (const std::string limit = add_sticking(context, spec, c); !limit.empty())
+        symbols = colored(symbols, readable(p, color_of(c.panel.series.front()))) + limit;
+    if (shows_peaks(spec)) c.peak = context.look.translate("peak") + "\u00A0";
+    if (shows_peaks(spec) || (spec.by_collision && single)) c.rows = static_cast<std::size_t>(context.members());
     Range values = range_of(context, spec, c.panel.series);
     if (single && dotted) values = add_places(context, shown_time(context, spec), c);
     add_data(context, spec, c, values);

@@ -43,56 +43,46 @@ class StripPanel final : public ChartPanel {
 
 // ---- a strip that shows one collision after the other --------------------------------------------
 
-// The channels during one collision, from shortly before its first touch at t₀. The chart stays until the next
-// collision begins; before the first one a film shows nothing. All collisions share the axis of values.
-// Collisions of compared motions that follow each other within three times their duration are one.
+// The channels during the latest collision of each motion, from shortly before its first touch at t₀; before that of
+// the first one its axes. All collisions share the axis of values.
 class CollisionPanel final : public FilmPanel {
   public:
     CollisionPanel(const FilmContext& context, const PanelSlot& slot) : context_(context), spec_(slot.spec) {
-        std::vector<std::pair<sim::Impact, std::size_t>> impacts;  // and their motions
-        for (int m = 0; m < context.members(); ++m)
-            for (const sim::Impact& i : context.motion(m).impacts) impacts.emplace_back(i, std::size_t(m));
-        std::ranges::stable_sort(impacts, {}, [](const auto& each) { return each.first.t_start; });
-        std::vector<int> last(static_cast<std::size_t>(context.members()), -1);  // collision of each motion
-        for (const auto& [i, m] : impacts) {
-            if (i.t_start > context.clock.span.high) break;
-            const double end = std::min(i.t_end.value_or(context.clock.span.high), context.clock.span.high);
-            if (context.frames() > 1 && end < context.clock.at(0)) continue;  // before the film
-            const bool begins = std::exchange(last[m], i.collision) != i.collision;
-            if (spans_.empty() || (begins && (last.size() == 1 || i.t_start > spans_.back().until())))
-                spans_.push_back({{i.t_start, end}, end, i.collision});
-            Collision& now = spans_.back();
-            now.span.high = std::max(now.span.high, end);
-            now.shown = end - i.t_start > kLasting ? i.t_start + kShown : now.span.high;
-        }
+        for (int m = 0; m < context.members(); ++m) collisions_.push_back(collisions_of(m));
         if (shows_peaks(spec_) && context.setup->view.labelled()) peaks_.emplace(context);
         content_ = strip_content(context, spec_);
         content_.panel.events.clear();
-        content_.past_only = context.frames() > 1;  // the picture of a touch shows the force that follows
+        content_.past_only =
+            context.frames() > 1 || context.members() > 1;  // the picture of a touch shows the force that follows
         curves_ = std::exchange(content_.panel.series, {});
         const Box plot = plot_area(slot.box, context.look.unit, context.look.letters.words);
         for (int k = 0; k < context.frames(); ++k)
-            if (const std::size_t which = shown(context.clock.at(k)); !charts_.contains(which))
-                charts_.try_emplace(which, content_of(which), slot.box, plot, chart_style(context), *context.fonts);
+            if (const Latest latest = latest_at(context.clock.at(k)); !charts_.contains(latest))
+                charts_.try_emplace(latest, content_of(latest), slot.box, plot, chart_style(context), *context.fonts);
     }
 
     void draw_background(Canvas&) const override {}
 
     void draw(Canvas& canvas, int frame, Style, BodyPicture&) const override {
         const double now = context_.clock.at(frame);
-        const std::size_t which = shown(now);
-        const Chart& chart = charts_.at(which);
-        if (content_.past_only && now - start(which) < chart.time().low) return;
+        const Latest latest = latest_at(now);
+        const Chart& chart = charts_.at(latest);
         chart.draw_background(canvas);
-        std::vector<double> readings;
+        std::vector<double> times, readings;
         std::vector<Vec2> peaks;
-        for (const Channel channel : spec_.channels)
-            for (int m = 0; m < context_.members(); ++m) readings.push_back(reading(context_, m, frame, channel));
-        for (int m = 0; peaks_ && m < context_.members(); ++m) {
-            const Vec2 peak = peaks_->of(m, now) - Vec2{start(which), 0};
+        for (int m = 0; m < context_.members(); ++m) {
+            const double touch = touch_of(latest, m);
+            times.push_back(now - touch);
+            if (!peaks_) continue;
+            const Vec2 peak = peaks_->of(m, now) - Vec2{touch, 0};
             peaks.push_back(peak.x < 0 ? Vec2{kNan, kNan} : peak);  // of an earlier collision
         }
-        chart.draw_moving(canvas, now - start(which), readings, peaks);
+        for (const Channel channel : spec_.channels)
+            for (int m = 0; m < context_.members(); ++m) readings.push_back(reading(context_, m, frame, channel));
+        if (content_.past_only)
+            chart.draw_rows(canvas, times, readings, peaks);
+        else
+            chart.draw_moving(canvas, times.front(), readings, peaks);
     }
 
   private:
@@ -102,42 +92,73 @@ class CollisionPanel final : public FilmPanel {
         Range span;
         double shown = 0;  // end of its time axis
         int number = 1;
-        double until() const { return span.high + 3 * (span.high - span.low); }
     };
+    using Latest = std::vector<std::size_t>;  // the collision of each motion that began last, or the first
 
-    // The collision that began last.
-    std::size_t shown(double t) const {
-        std::size_t which = 0;
-        while (which + 1 < spans_.size() && spans_[which + 1].span.low <= t) ++which;
-        return which;
-    }
-    double start(std::size_t which) const { return spans_.empty() ? 0 : spans_[which].span.low; }
-
-    ChartContent content_of(std::size_t which) const {
-        ChartContent c = content_;
-        Range time{0, 0.01};
-        if (!spans_.empty()) {
-            const Range& span = spans_[which].span;
-            const double length = spans_[which].shown - span.low, m = std::clamp(0.15 * length, 1.5e-5, 0.01);
-            time = {-m, length + m};
-            // If that is over before the film begins, or before the instant of a still, the contact after it is shown.
-            const double first = context_.clock.at(0), shown_until = span.low + length + m;
-            if (context_.frames() == 1 && first > shown_until && first <= span.high)
-                time = {first - kShown - span.low, first - span.low};
-            else if (context_.clock.span.low > shown_until && span.high > context_.clock.span.low)
-                time = {context_.clock.span.low - span.low, std::min(span.high, context_.clock.span.high) - span.low};
-            if (context_.members() == 1) c.words = context_.look.translate("Collision {}", spans_[which].number) + ", ";
+    std::vector<Collision> collisions_of(int member) const {
+        std::vector<Collision> out;
+        for (const sim::Impact& i : context_.motion(member).impacts) {
+            if (i.t_start > context_.clock.span.high) break;
+            const double end = std::min(i.t_end.value_or(context_.clock.span.high), context_.clock.span.high);
+            if (context_.frames() > 1 && end < context_.clock.at(0)) continue;  // before the film
+            if (out.empty() || out.back().number != i.collision) out.push_back({{i.t_start, end}, end, i.collision});
+            Collision& now = out.back();
+            now.span.high = std::max(now.span.high, end);
+            now.shown = end - i.t_start > kLasting ? i.t_start + kShown : now.span.high;
         }
+        return out;
+    }
+
+    Latest latest_at(double t) const {
+        Latest out;
+        for (const std::vector<Collision>& all : collisions_) {
+            const auto begun = std::ranges::count_if(all, [&](const Collision& each) { return each.span.low <= t; });
+            out.push_back(static_cast<std::size_t>(std::max(begun, 1L)) - 1);
+        }
+        return out;
+    }
+    const Collision* collision(const Latest& latest, int m) const {
+        const auto member = static_cast<std::size_t>(m);
+        return collisions_[member].empty() ? nullptr : &collisions_[member][latest[member]];
+    }
+    double touch_of(const Latest& latest, int m) const {
+        const Collision* own = collision(latest, m);
+        return own ? own->span.low : 0;
+    }
+
+    // The time axis of a collision, from its first touch.
+    Range time_of(const Collision& each) const {
+        const Range& span = each.span;
+        const double length = each.shown - span.low, m = std::clamp(0.15 * length, 1.5e-5, 0.01);
+        // If that is over before the film begins, or before the instant of a still, the contact after it is shown.
+        const double first = context_.clock.at(0), shown_until = span.low + length + m;
+        if (context_.frames() == 1 && first > shown_until && first <= span.high)
+            return {first - kShown - span.low, first - span.low};
+        if (context_.clock.span.low > shown_until && span.high > context_.clock.span.low)
+            return {context_.clock.span.low - span.low, std::min(span.high, context_.clock.span.high) - span.low};
+        return {-m, length + m};
+    }
+
+    ChartContent content_of(const Latest& latest) const {
+        ChartContent c = content_;
+        std::optional<Range> all;
+        for (int m = 0; m < context_.members(); ++m)
+            if (const Collision* own = collision(latest, m)) {
+                const Range time = time_of(*own);
+                all = all ? Range{std::min(all->low, time.low), std::max(all->high, time.high)} : time;
+                c.words = context_.members() > 1 ? context_.look.translate("Last collisions") + ", "
+                                                 : context_.look.translate("Collision {}", own->number) + ", ";
+            }
+        const Range time = all.value_or(Range{0, 0.01});
         const Prefix prefix = time.high < 1 ? prefix_for(time.high) : Prefix{"", 1};
         c.set_time(time, prefix.factor, fmt::format("($t$ − $t$_{{0}}) / {}s", prefix.symbol));
-        const double t0 = start(which);
-        for (figure::Span& span : c.panel.spans) span.from -= t0, span.to -= t0;
-        for (figure::Series curve : curves_) {
+        for (figure::Span& span : c.panel.spans) span.from -= touch_of(latest, 0), span.to -= touch_of(latest, 0);
+        for (std::size_t k = 0; k < curves_.size(); ++k) {
+            figure::Series curve = curves_[k];
+            const double t0 = touch_of(latest, static_cast<int>(k) % context_.members());
             const std::vector<double> t = std::exchange(curve.x, {}), v = std::exchange(curve.y, {});
-            const auto begin = std::ranges::lower_bound(t, t0 + time.low) - t.begin(),
-                       end = std::ranges::upper_bound(t, t0 + time.high) - t.begin();
-            for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
-                curve.add(t[i] - t0, v[i]);
+            for (std::size_t i = 0; i < t.size(); ++i)
+                if (t[i] >= t0 + time.low && t[i] <= t0 + time.high) curve.add(t[i] - t0, v[i]);
             c.panel.series.push_back(std::move(curve));
         }
         return c;
@@ -146,10 +167,10 @@ class CollisionPanel final : public FilmPanel {
     const FilmContext& context_;
     PanelSpec spec_;
     std::optional<Peaks> peaks_;
-    std::vector<Collision> spans_;
+    std::vector<std::vector<Collision>> collisions_;  // of each motion
     ChartContent content_;
     std::vector<figure::Series> curves_;
-    std::map<std::size_t, Chart> charts_;  // of the collisions that frames show
+    std::map<Latest, Chart> charts_;  // of the collisions that frames show
 };
 
 }  // namespace

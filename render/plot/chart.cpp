@@ -126,7 +126,8 @@ void Chart::draw_moving(Canvas& canvas, double t, std::span<const double> readin
         const Box box = past_box();
         from = std::max<double>(over ? std::lround(area_.right() + 1) : past_column(t), box.x);
         canvas.image_part(past_, static_cast<int>(box.x), static_cast<int>(box.y), {0, 0, from - box.x, box.h});
-        if (over) return draw_readings(canvas, reading_texts(canvas, {}, draw_peaks(canvas, plots_, from, peaks)));
+        if (over)
+            return draw_readings(canvas, reading_texts(canvas, {}, draw_peaks(canvas, plots_, {&from, 1}, peaks)));
     }
     std::vector<figure::Plot> moved;  // the window
     if (windowed()) moved = plots_;
@@ -143,21 +144,40 @@ void Chart::draw_moving(Canvas& canvas, double t, std::span<const double> readin
     const figure::Interval past{std::max(view.low, view.low + (from - area_.x - before) * column),
                                 std::min(t, view.high), true};
     canvas.clip({from, top, cut - from, past_box().h}, [&] { draw_all(canvas, shown, past); });
-    if (!over) draw_cursor(canvas, cut - 0.5, readings);
-    draw_readings(canvas, reading_texts(canvas, readings, draw_peaks(canvas, shown, cut, peaks)));
+    if (!over) draw_cursor(canvas, cut - 0.5, area_, readings);
+    draw_readings(canvas, reading_texts(canvas, readings, draw_peaks(canvas, shown, {&cut, 1}, peaks)));
 }
 
-void Chart::draw_cursor(Canvas& canvas, double x, std::span<const double> readings) const {
+void Chart::draw_rows(Canvas& canvas, std::span<const double> times, std::span<const double> readings,
+                      std::span<const Vec2> peaks) const {
+    std::vector<double> cuts;  // the ends of the past [px]
+    for (std::size_t k = 0; k < plots_.size(); ++k) {
+        const double t = plots_.size() == times.size() ? times[k] : std::ranges::max(times),
+                     end = std::min(t, time().high);
+        cuts.push_back(cursor_column(time(), end) + 1 + (t > time().high ? kAround : 0));
+        if (t < time().low) continue;
+        const Box& row = plots_[k].box();
+        canvas.clip({area_.x, row.y - kAround, cuts[k] - area_.x, row.h + 2 * kAround}, [&] {
+            plots_[k].draw_data(canvas, {time().low, end, true});
+        });
+        if (!(t > time().high))
+            draw_cursor(canvas, cuts[k] - 0.5, row, plots_.size() > 1 ? readings.subspan(k, 1) : readings, k);
+    }
+    draw_readings(canvas, reading_texts(canvas, readings, draw_peaks(canvas, plots_, cuts, peaks)));
+}
+
+void Chart::draw_cursor(Canvas& canvas, double x, const Box& along, std::span<const double> readings,
+                        std::size_t first) const {
     const double u = style_.unit;
-    canvas.line({x, area_.y - 6 * u}, {x, area_.bottom()}, {palette_.ink, std::max(1.0, 1.4 * u), {}, Cap::butt});
+    canvas.line({x, along.y - 6 * u}, {x, along.bottom()}, {palette_.ink, std::max(1.0, 1.4 * u), {}, Cap::butt});
     for (std::size_t i = 0; i < readings.size(); ++i) {
-        const figure::Plot& row = row_of(plots_, i);
+        const figure::Plot& row = row_of(plots_, first + i);
         const Box& plot = row.box();
         const double at = row.along_y(readings[i]);
         // A value between the rows may lie beyond their range: its number is shown, but a dot would be misplaced.
         if (!(at > plot.y - 8 * u && at < plot.bottom() + 8 * u)) continue;
         canvas.circle({x, std::clamp(at, plot.y - 4 * u, plot.bottom() + 4 * u)}, 5.5 * u);
-        canvas.fill_keeping_path(reading_color(i));
+        canvas.fill_keeping_path(reading_color(first + i));
         canvas.stroke({palette_.paper, 1.6 * u});
     }
 }
@@ -165,15 +185,16 @@ void Chart::draw_cursor(Canvas& canvas, double x, std::span<const double> readin
 // Centred above its own peak, if that does not read zero. Returns the values that do not fit there: between the axis
 // and the cursor, below the heading or the row above, with nothing higher of the curve under them, in a row of their
 // own.
-std::vector<double> Chart::draw_peaks(Canvas& canvas, const std::vector<figure::Plot>& rows, double cursor,
-                                      std::span<const Vec2> peaks) const {
-    const double size = style_.numbers, end = std::min(cursor - 8 * style_.unit, area_.right());
+std::vector<double> Chart::draw_peaks(Canvas& canvas, const std::vector<figure::Plot>& rows,
+                                      std::span<const double> cursors, std::span<const Vec2> peaks) const {
+    const double size = style_.numbers;
     std::vector<double> left_out;
     for (std::size_t i = 0; i < peaks.size(); ++i) {
         left_out.push_back(kNan);
         if (!(plots_[0].y().tick_value(peaks[i].y) >= 0.5 * ten_to(-digits_))) continue;
         const figure::Plot& row = row_of(rows, i);
         const Vec2 at = row.at(peaks[i].x, peaks[i].y);
+        const double end = std::min(cursors[std::min(i, cursors.size() - 1)] - 8 * style_.unit, area_.right());
         const TextStyle style{.size = size,
                               .color = readable(palette_, reading_color(i)),
                               .weight = Weight::medium,
@@ -216,12 +237,11 @@ std::string Chart::heading_text(Canvas& canvas) const {
     return first_that_fits(canvas, {c_.words + name, c_.short_words + name, name}, heading_style(), room);
 }
 
-// In the unit of the axis, with the decimals that its ticks ask for; what these show as zero has none.
+// In the unit of the axis, with the decimals that its ticks ask for.
 std::string Chart::reading_text(double value) const {
     const std::string unit = plots_[0].y().unit();
     const double number = plots_[0].y().tick_value(value);
-    const bool zero = std::abs(number) < 0.5 * ten_to(-digits_);
-    return fixed(number, zero ? 0 : digits_) + (unit.empty() || unit == "°" ? unit : "\u00A0" + unit);
+    return fixed(number, digits_) + (unit.empty() || unit == "°" ? unit : "\u00A0" + unit);
 }
 
 double Chart::widest_reading(Canvas& canvas) const {

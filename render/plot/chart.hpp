@@ -52,6 +52,9 @@ class Chart {
     // curves at the cursor; NaN: none. `peaks`: points of the curves that have their value above them; NaN: none.
     void draw_moving(Canvas& canvas, double t, std::span<const double> readings,
                      std::span<const Vec2> peaks = {}) const;
+    // The same of a chart of the past alone whose rows have a time each.
+    void draw_rows(Canvas& canvas, std::span<const double> times, std::span<const double> readings,
+                   std::span<const Vec2> peaks) const;
     Range time() const { return c_.time(); }
 
   private:
@@ -62,14 +65,16 @@ class Chart {
         return {around.x, around.y, around.w, around.h - kAround + std::ceil(plots_[0].numbers_below())};
     }
     void make_rows(const Fonts& fonts);
-    std::vector<double> draw_peaks(Canvas& canvas, const std::vector<figure::Plot>& rows, double cursor,
-                                   std::span<const Vec2> peaks) const;
+    std::vector<double> draw_peaks(Canvas& canvas, const std::vector<figure::Plot>& rows,
+                                   std::span<const double> cursors, std::span<const Vec2> peaks) const;
     // The first column that may hold future at t: the stroke of a later row may reach into it.
     int past_column(double t) const;
     void draw_whole_past(const Fonts& fonts);
     figure::Interval whole(bool past) const { return {time().low, time().high, past}; }
     int cursor_column(const Range& view, double t) const;
-    void draw_cursor(Canvas& canvas, double x, std::span<const double> readings) const;
+    // `along`: the box of the line; `first`: the curve of the first reading.
+    void draw_cursor(Canvas& canvas, double x, const Box& along, std::span<const double> readings,
+                     std::size_t first = 0) const;
 
     TextStyle heading_style() const;
     TextStyle reading_style(Color color) const;

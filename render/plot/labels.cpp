@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <iterator>
 #include <numbers>
 
 #include "render/draw/markup.hpp"
@@ -157,11 +158,31 @@ std::vector<std::string> parameter_pieces(const sim::Problem& problem, Lang lang
     return out;
 }
 
-std::vector<std::string> common_pieces(const std::vector<const sim::Problem*>& problems, Lang lang, SpeedUnit unit) {
-    std::vector<std::string> out = parameter_pieces(*problems.front(), lang, unit);
-    for (const sim::Problem* other : problems) {
-        const std::vector<std::string> its = parameter_pieces(*other, lang, unit);
-        std::erase_if(out, [&](const std::string& piece) { return std::ranges::find(its, piece) == its.end(); });
+static std::string without_spaces(const std::string& markup) {
+    std::string text = to_plain(markup);
+    for (const std::string_view space : {" ", "\u00A0", "\u2009"})
+        for (std::size_t at = 0; (at = text.find(space, at)) != std::string::npos;) text.erase(at, space.size());
+    return text;
+}
+
+std::vector<std::string> compared_pieces(const std::vector<const sim::Problem*>& problems,
+                                         const std::vector<std::string>& labels, Lang lang, SpeedUnit unit) {
+    std::vector<std::vector<std::string>> all;
+    for (const sim::Problem* each : problems) all.push_back(parameter_pieces(*each, lang, unit));
+    const auto is_common = [&](const std::string& piece) {
+        return std::ranges::all_of(all, [&](const auto& its) { return std::ranges::count(its, piece) > 0; });
+    };
+    std::vector<std::string> out;
+    std::ranges::copy_if(all.front(), std::back_inserter(out), is_common);
+    for (std::size_t m = 0; m < all.size(); ++m) {
+        std::vector<std::string> own;
+        for (const std::string& piece : all[m]) {
+            const std::string text = without_spaces(piece), value = text.substr(text.find('=') + 1),
+                              label = without_spaces(labels[m]);
+            const bool said = label.find(value) != std::string::npos || (label.size() > 2 && value.starts_with(label));
+            if (!is_common(piece) && !said) own.push_back(piece);
+        }
+        if (!own.empty()) out.push_back(fmt::format("{}: {}", labels[m], fmt::join(own, ", ")));
     }
     return out;
 }

@@ -16,8 +16,10 @@ const char* name_of(SpeedUnit unit);                        // "°/s"
 
 // Pieces of the parameter line, most important first: "L = 1 m", "R = 100 mm", "2 modes", …
 std::vector<std::string> parameter_pieces(const sim::Problem& problem, Lang lang = {}, SpeedUnit unit = {});
-// The pieces that all problems share.
-std::vector<std::string> common_pieces(const std::vector<const sim::Problem*>& problems, Lang lang, SpeedUnit unit);
+// The pieces that all problems share, then for each problem its label and the other pieces that the label does not
+// have: "rigid: rigid beam".
+std::vector<std::string> compared_pieces(const std::vector<const sim::Problem*>& problems,
+                                         const std::vector<std::string>& labels, Lang lang, SpeedUnit unit);
 
 // "0.5 rad/s", "−300 rpm": without SI prefixes, with three digits. `speed` in rad/s.
 std::string turning_speed(double speed, SpeedUnit unit);

@@ -109,7 +109,7 @@ void Plot::draw_dots_and_events(Painter& on, const Interval& part) const {
 }
 
 // Intervals of the past, or above the curves their names: each once, in the widest of its intervals in the plot, if it
-// has room there.
+// has room there, as soon as all of the name is past.
 void Plot::draw_spans(Painter& on, const Interval& part, bool names) const {
     TextStyle text = style_->tick_numbers();
     text.align = HAlign::centre;
@@ -127,9 +127,10 @@ void Plot::draw_spans(Painter& on, const Interval& part, bool names) const {
         if (!names) {
             on.rectangle({from, box_.y + shift_.y, to - from, box_.h});
             on.fill(span.color);
-        } else if (width(span) == widest[span.label] && on.measure(span.label, text).w < width(span))
-            on.text({along_x(0.5 * (span.from + span.to)) + shift_.x, box_.y + shift_.y + 0.9 * style_->numbers},
-                    span.label, text);
+        } else if (const double wide = on.measure(span.label, text).w,
+                   middle = along_x(0.5 * (span.from + span.to)) + shift_.x;
+                   width(span) == widest[span.label] && wide < width(span) && middle + wide / 2 <= to)
+            on.text({middle, box_.y + shift_.y + 0.9 * style_->numbers}, span.label, text);
     }
 }
 

@@ -59,6 +59,7 @@ DeflectionCurves shape_of(const sim::Problem& problem, double angle, double supp
              .weight = first ? 1 : 0.9,
              .color = render::figure::look(static_cast<int>(i)).color};
     out.slope = out.v;
+    if (first) out.slope.label = fmt::format("$l_{{1}}$ = {}", length_text(support));  // the key to the colours
     for (const bool overhang : {false, true}) {
         const double from = overhang ? support : 0, to = overhang ? reach : support;
         for (int k = 0; k < kPerSpan; ++k) {

@@ -29,8 +29,19 @@ double phase_of(const sim::Impact& hit) {
 }
 constexpr const char* kPhaseLabel = "$φ$ / (2π)";
 
-// Ratios above this one have a logarithmic axis: a slow touch can leave much faster than it came.
-constexpr double kLargestLinearRatio = 3;
+// Ratios above the first have a logarithmic axis: a slow touch can leave much faster than it came. So have speeds whose
+// ratio is above the second: most impacts of a collision are slow.
+constexpr double kLargestLinearRatio = 3, kLargestLinearSpread = 50;
+
+void spread(const std::vector<double>& speeds, std::initializer_list<render::Axis*> axes) {
+    if (speeds.empty()) return;
+    const auto [least, most] = std::ranges::minmax(speeds);
+    if (!(least > 0 && most > kLargestLinearSpread * least)) return;
+    for (render::Axis* axis : axes) {
+        axis->scale = render::Scale::logarithmic;
+        axis->from.reset();
+    }
+}
 
 // Restitution against speed, and the speed of each impact against the cam's phase; in a second row each collision
 // against the next, if there are enough, and the hub's speed.
@@ -39,10 +50,10 @@ std::vector<Panel> impact_maps(const Subject& subject, const sim::Result& result
     const auto speed = [](const char* of) { return axis_label(of, "m/s"); };
     const Measure turning = measure_in(units, "rad/s");
     const double law = problem.contact.restitution;
-    Panel loss =
-              map_panel(phrase(lang, "restitution"),
-                        "restitution $c$ of the point of contact, dashed: 1, and the contact law's " + number(law, 3),
-                        speed("$v$"), "$c$"),
+    Panel loss = map_panel(phrase(lang, "restitution"),
+                           "restitution $c$ of the point of contact, dashed: the contact law's " + number(law, 3) +
+                               ", and 1, above which the vibration or the cam adds speed",
+                           speed("$v$"), "$c$"),
           next = map_panel(phrase(lang, "next collision"), "approach speeds of successive collisions, grey: equal ones",
                            speed("$v_{k}$"), speed("$v_{k+1}$")),
           phase = map_panel(phrase(lang, "approach speed"), "approach speed by the phase $φ$ of the cam", kPhaseLabel,
@@ -56,10 +67,11 @@ std::vector<Panel> impact_maps(const Subject& subject, const sim::Result& result
     const std::vector<sim::Collision> all = strikes(problem, result.collisions, from, to);
     for (std::size_t k = 0; k + 1 < all.size(); ++k)
         next.series[0].add(std::abs(all[k].v_n_before), std::abs(all[k + 1].v_n_before));
-    loss.rules = {{.at = 1}, {.at = law}};
+    loss.rules = {{.at = 1, .label = phrase(lang, "as fast as before")}, {.at = law}};
     const double largest = loss.series[0].y.empty() ? 1 : std::max(1.0, std::ranges::max(loss.series[0].y));
     loss.y.to = 1.05 * largest;
     if (largest > kLargestLinearRatio) loss.y.scale = render::Scale::logarithmic, loss.y.from.reset();
+    spread(loss.series[0].x, {&loss.x}), spread(phase.series[0].y, {&phase.y});
     phase.x.to = hub.x.to = 1;
     hub.y.from.reset();
     std::vector<Panel> panels{loss};
@@ -67,9 +79,11 @@ std::vector<Panel> impact_maps(const Subject& subject, const sim::Result& result
     if (turns) panels.push_back(phase);
     constexpr std::size_t kFewest = 3;  // collisions that are followed by another
     if (next.series[0].x.size() < kFewest) return panels;
-    const double fastest = std::ranges::max(next.series[0].x);
+    const auto [slowest, fastest] = std::ranges::minmax(next.series[0].x);
+    spread(next.series[0].x, {&next.x, &next.y});
+    const double first = next.x.from ? 0 : slowest;
     next.series.push_back(
-        {.x = {0, fastest}, .y = {0, fastest}, .solid = true, .weight = 0.5, .color = render::rgb(0x777777)});
+        {.x = {first, fastest}, .y = {first, fastest}, .solid = true, .weight = 0.5, .color = render::rgb(0x777777)});
     panels.push_back(next);
     if (turns) panels.push_back(hub);
     return panels;

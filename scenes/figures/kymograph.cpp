@@ -78,10 +78,15 @@ FigureDrawing prepare_kymograph(const Scene& scene, const FigureOutput& how, Mot
             kymograph_panel(deflections(result.poses[shown.poses], samples), shown, problem.beam.length, samples > 1);
         std::string title = kKymographTitle;
         if (samples > 1) title += fmt::format("; |$v$|: the largest in each of {} intervals", kColumns);
-        Series hits{.name = "impact", .look = 6, .line = false, .every_point = true};  // black
+        Series hits{.label = phrase(lang, "impacts"),
+                    .name = "impact",
+                    .look = 6,
+                    .line = false,
+                    .every_point = true};  // black
         for (const sim::Impact& hit : strikes(problem, result.impacts, shown.from, shown.to))
             hits.add(hit.t_start, hit.x * measure_of("m", problem.beam.length).factor);
         if (!hits.x.empty()) title += "; dots: impacts";
+        panel.legend = !hits.x.empty();
         panel.series.push_back(std::move(hits));
         return {.title = std::move(title), .panels = {std::move(panel)}};
     });

@@ -58,9 +58,9 @@ class SeriesPanelMaker {
           first_(plan.motions[planned.motions.front()]) {}
 
     std::vector<Panel> make() {
-        panel_.title =
-            keys_.sums.size() == 1 && keys_.title.empty() ? phrase(plan_.lang, keys_.sums.front().label) : keys_.title;
-        if (shows_some()) panel_.title = first_.label + (keys_.title.empty() ? "" : ": ") + keys_.title;
+        panel_.title = keys_.sums.size() == 1 && keys_.title.empty() ? phrase(plan_.lang, keys_.sums.front().label)
+                                                                     : phrase(plan_.lang, keys_.title);
+        if (shows_some()) panel_.title = first_.label + (panel_.title.empty() ? "" : ": ") + panel_.title;
         if (!has_sums()) panel_.name = name(keys_.channels.front());
         if (keys_.logarithmic) panel_.y.scale = render::Scale::logarithmic;
         panel_.y.from = keys_.low, panel_.y.to = keys_.high;

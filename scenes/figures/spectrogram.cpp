@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "render/plot/channel_label.hpp"
+#include "render/plot/lang.hpp"
+#include "render/plot/ticks.hpp"
 #include "scenes/figures/axis_labels.hpp"
 #include "scenes/figures/figure_types.hpp"
 #include "scenes/figures/series.hpp"
@@ -112,9 +114,10 @@ sim::Channel channel_of(const SeriesKeys& keys) {
 }
 
 // `measure`: of the amplitudes, of which `most` is the largest.
-Panel spectrogram_panel(sim::Channel channel, const Spectrogram& s, double most, const Measure& measure) {
+Panel spectrogram_panel(sim::Channel channel, const Spectrogram& s, double most, const Measure& measure, Lang lang) {
     const double largest = most * measure.factor;
-    return {.x = {.label = "$t$ / s", .tight = true},
+    return {.title = phrase(lang, "windows of {}, drawn at their middles", render::quantity(s.window, "s")),
+            .x = {.label = "$t$ / s", .tight = true},
             .y = {.label = "$f$ / Hz", .tight = true},
             .cells = {cells_of(s, most, measure.factor)},
             .color_bar =
@@ -149,7 +152,7 @@ FigureDrawing prepare_spectrogram(const Scene& scene, const FigureOutput& how, M
                 throw render::PictureError(fmt::format("figure spectrogram: {} does not vibrate from {:g} s to {:g} s",
                                                        name(channel), from, to));
             if (!highest) shorten(s, most * std::pow(10, -kDecades));
-            Panel panel = spectrogram_panel(channel, s, most, measure_of(unit, most, subject.units));
+            Panel panel = spectrogram_panel(channel, s, most, measure_of(unit, most, subject.units), subject.lang);
             panel.x.from = from, panel.x.to = to;
             return {.title = fmt::format("{}: amplitude by frequency and time, Hann windows of {} s",
                                          series_title({.panels = {{.channels = {channel}}}}), number(s.window, 3)),

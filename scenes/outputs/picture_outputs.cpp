@@ -26,8 +26,8 @@ void visit_video(SceneVisitor& v, PictureOutput& video) {
     visit_picture(v, video);
     visit_span(v, video.span);
     v.value("poster", instant_format(video.span.poster),
-            "The first frame at or after this instant is also written as a picture: fall.png beside fall.mp4. For a "
-            "time outside the film the nearest frame.");
+            "The first frame at or after this instant, of a freeze the middle one, is also written as a picture: "
+            "fall.png beside fall.mp4. For a time outside the film the nearest frame.");
     v.choice(
         sim::derived("codec"), video.encoding.codec, std::span<const Named<Codec>>(kCodecs),
         "Codec. The default depends on the ending: .mp4 h264, .webm vp9, .mov prores (or h264), .mkv ffv1 (or h264, "

@@ -18,7 +18,8 @@ using render::Lang, render::LayoutNode, render::PanelKind, render::PanelSpec, re
 using sim::ChannelKind;
 
 constexpr double kShown = 2.5, kFade = 0.2;  // of captions [s of the film]
-constexpr double kNear = 2, kMove = 1.2;     // zoom at the contact; duration of the camera's movement [s of the film]
+constexpr double kNear = 1.6, kMove = 1.2;   // zoom at the contact, at which the tip remains visible; duration of the
+                                             // camera's movement [s of the film]
 
 Instant at_time(double t) { return {.kind = Instant::Kind::time, .t = t}; }
 
@@ -131,11 +132,11 @@ std::string energy_at_apex(double touch, double apex, const sim::Problem& proble
     return phrase(lang, "energy {}", from) + ": " + to;
 }
 
-// The mechanism from near, the whole of it, the contact in micrometres, and the force of the collision.
+// The mechanism, the contact in micrometres, and the force of the collision.
 LayoutNode impact_layout(bool has_force, const Size& size, double text_scale) {
     using enum LayoutNode::Kind;
-    const LayoutNode near = leaf({.kind = PanelKind::mechanism}, 2.6), overview = leaf({.kind = PanelKind::overview});
-    if (!has_force) return group(columns, {near, overview});
+    const LayoutNode near = leaf({.kind = PanelKind::mechanism}, 2.6);
+    if (!has_force) return near;
     const LayoutNode contact = leaf({.kind = PanelKind::close_up}),
                      force = leaf({.kind = PanelKind::strip,
                                    .channels = {{ChannelKind::contact_force, 0}},
@@ -143,11 +144,19 @@ LayoutNode impact_layout(bool has_force, const Size& size, double text_scale) {
     const bool small = size.height < 540 || text_scale > 1.2;  // without room for four panels
     if (size.width < 1.4 * size.height) return group(rows, {near, contact, force});
     if (small) return group(columns, {leaf({.kind = PanelKind::mechanism}, 1.55), force});
-    return group(rows, {group(columns, {near, group(rows, {overview, contact})}, 1.9), force});
+    return group(rows, {group(columns, {near, contact}, 1.9), force});
 }
 
-// The captions of a collision, from the first touch to `liftoff`.
-void tell_collision(PictureOutput& film, const sim::Collision& c, double liftoff) {
+// The largest force, which many modes change: with their number.
+std::string force_of(const sim::Collision& c, const sim::Problem& problem, Lang lang) {
+    const std::string force = phrase(lang, "largest force {}", quantity(*c.force_peak, "N"));
+    if (problem.beam.model == sim::ModelKind::rigid) return force;
+    return phrase(lang, "{} with {}", force,
+                  phrase(lang, problem.beam.modes == 1 ? "{} mode" : "{} modes", problem.beam.modes));
+}
+
+// The captions of a collision, from the first touch to `liftoff`. How many impacts it has depends on the modes.
+void tell_collision(PictureOutput& film, const sim::Collision& c, const sim::Problem& problem, double liftoff) {
     constexpr double kAtTouch = 0.8, kAtPeak = 1.5, kAtLiftoff = 1.5;  // freezes [s]
     const double touch = c.t_start;
     const Lang lang = film.view.lang;
@@ -155,16 +164,12 @@ void tell_collision(PictureOutput& film, const sim::Collision& c, double liftoff
     if (liftoff == touch) film.span.events.back().show = kAtTouch;  // it is true while they touch
     if (c.t_peak && c.force_peak && *c.t_peak < liftoff)
         tell(film, *c.t_peak,
-             phrase(lang, "largest force {}", quantity(*c.force_peak, "N")) + ", " +
-                 phrase(lang, "{} after the touch", quantity(*c.t_peak - touch, "s")),
+             force_of(c, problem, lang) + ", " + phrase(lang, "{} after the touch", quantity(*c.t_peak - touch, "s")),
              kAtPeak);
     if (!c.t_end)
         tell(film, liftoff, phrase(lang, "stays in contact"));
-    else if (const std::string after = quantity(liftoff - touch, "s"); liftoff > touch)
-        tell(film, liftoff,
-             c.count > 1 ? phrase(lang, "lifts off after {} and {}", after, impacts_text(c.count, lang))
-                         : phrase(lang, "lifts off after {}", after),
-             kAtLiftoff);
+    else if (liftoff > touch)
+        tell(film, liftoff, phrase(lang, "lifts off after {}", quantity(liftoff - touch, "s")), kAtLiftoff);
 }
 
 PictureOutput told_impact(PictureOutput film, const Scene& scene, const sim::Result& motion, const FindEvents& find) {
@@ -192,7 +197,7 @@ PictureOutput told_impact(PictureOutput film, const Scene& scene, const sim::Res
         span.speed.ease = length;
     }
     tell_beginning(film, scene.problem);
-    tell_collision(film, c, liftoff);
+    tell_collision(film, c, scene.problem, liftoff);
     if (rebounds)
         tell(film, *span.to, energy_at_apex(touch, *span.to, scene.problem, find, film.view.lang), kHold);
     else if (!c.t_end)
@@ -241,7 +246,7 @@ PictureOutput told_settle(PictureOutput film, const Scene& scene, const sim::Res
                                                     [](const sim::Collision& c) { return c.force_peak.value_or(0); });
     if (strongest->t_peak && strongest->t_start > first.t_start && *strongest->t_peak < slow_until)
         tell(film, *strongest->t_peak,
-             phrase(lang, "largest force {}", quantity(*strongest->force_peak, "N")) + ", " +
+             force_of(*strongest, scene.problem, lang) + ", " +
                  phrase(lang, "in collision {}", strongest - motion.collisions.begin() + 1));
     const auto impacts_between = [&](double from, double to) {
         return std::ranges::count_if(motion.impacts,
@@ -254,7 +259,6 @@ PictureOutput told_settle(PictureOutput film, const Scene& scene, const sim::Res
         tell(film, slow_until,
              endless ? phrase(lang, "infinitely many more impacts in {}", time)
                      : phrase(lang, "{} more impacts in {}", more, time));
-        film.span.events.back().show = kMiddle;
     }
     const std::string impacts = endless ? phrase(lang, "infinitely many impacts") : impacts_text(all, lang);
     tell(film, settled,

@@ -217,6 +217,13 @@ double end_of_collision(const sim::Result& motion, double t) {
     return end + 0.15 * (end - begin);
 }
 
+// The middle frame of the instant: in a freeze its caption has faded in.
+int middle_at(const std::vector<double>& frames, double t) {
+    const int first = first_at(frames, t);
+    const auto after = std::ranges::upper_bound(frames, frames[static_cast<std::size_t>(first)]) - frames.begin();
+    return (first + static_cast<int>(after) - 1) / 2;
+}
+
 }  // namespace
 
 int first_at(const std::vector<double>& frames, double t) {
@@ -248,7 +255,7 @@ FilmTimes film_times(const FrameSpan& with_events, double end_time, const sim::R
     FilmTimes out = span.real_time() ? real_time(span, to) : warped(span, to, motion, slowed, fine);
     if (span.poster) {
         if (const std::optional<double> t = reached(*span.poster, span, to, motion))
-            out.poster = first_at(out.frames, *t);
+            out.poster = middle_at(out.frames, *t);
         else
             out.unreached_events.push_back(name_of(*span.poster) + ", its poster");
     }

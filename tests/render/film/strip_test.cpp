@@ -215,8 +215,8 @@ TEST(CollisionStrip, ShowsTheWholeCollision) {
     }
 }
 
-// The axes of a collision would be empty before it.
-TEST(CollisionStrip, AppearsWithTheFirstCollision) {
+// Before the first collision there are its axes, without a cursor.
+TEST(CollisionStrip, HasAxesBeforeTheFirstCollision) {
     FilmSetup setup = test::flat_film({.duration = 1}, 1280, 720);
     sim::Impact impact;
     impact.t_start = 0.3, impact.t_end = 0.32;
@@ -225,15 +225,52 @@ TEST(CollisionStrip, AppearsWithTheFirstCollision) {
     by_collision.by_collision = true;
     setup.layout = leaf(by_collision);
     Film film(std::move(setup));
-    const auto has_texts = [&](int frame) {
-        const FrameGeometry g = film.geometry(frame);
-        const Box box = g.layout.first(PanelKind::strip)->box;
-        return std::ranges::any_of(g.texts, [&](const Box& text) { return text.overlaps(box); });
+    for (const int frame : {0, 17, 18, 59}) EXPECT_TRUE(has_reading(film.geometry(frame))) << frame;
+    const Box plot = film.geometry(0).layout.first(PanelKind::strip)->box;
+    const auto cursor = [&](int frame) {
+        const Image image = drawn(film, frame);
+        int dark = 0;
+        for (int x = int(plot.x); x < int(plot.right()); ++x)
+            dark += difference(pixel_at(image, x, int(plot.centre().y)), palette(Theme::light).ink) < 0.2;
+        return dark;
     };
-    EXPECT_FALSE(has_texts(0));
-    EXPECT_FALSE(has_texts(17));
-    EXPECT_TRUE(has_texts(18));
-    EXPECT_TRUE(has_texts(59));
+    EXPECT_EQ(cursor(0), 0);
+    EXPECT_GT(cursor(18), 0);
+}
+
+// Compared motions have their touches at one place, and each a row up to its own time.
+TEST(CollisionStrip, EachMotionHasItsOwnTouch) {
+    PanelSpec by_collision = strip(ChannelKind::contact_force);
+    by_collision.by_collision = true;
+    FilmSetup setup = struck(by_collision, {0.0502, 0.071});
+    Motion later = setup;
+    for (double& t : later.chart.values[0]) t += 0.02;
+    later.impacts[0].t_start += 0.02, *later.impacts[0].t_end += 0.02;
+    setup.label = "a", later.label = "b";
+    setup.others = {later};
+    const FilmContext context(std::make_shared<const FilmSetup>(setup));
+    Film film(std::move(setup));
+    const FrameGeometry g = film.geometry(0);
+    const Box plot = plot_area(g.layout.first(PanelKind::strip)->box, g.layout.unit, g.layout.letters.words);
+    const auto columns = [&](int frame, int member) {  // of the curve's colour
+        const Image image = drawn(film, frame);
+        const double gap = g.layout.letters.words,
+                     bottom = plot.bottom() - (1 - member) * (plot.h + gap) / 2;  // of its row
+        std::vector<int> found;
+        for (int x = int(plot.x); x < int(plot.right()); ++x)
+            for (int y = int(bottom - 0.4 * plot.h); y < int(bottom - 0.06 * plot.h); ++y)
+                if (difference(pixel_at(image, x, y), context.member_color(member)) < 0.1) {
+                    found.push_back(x);
+                    break;
+                }
+        return found;
+    };
+    ASSERT_FALSE(columns(1, 0).empty());
+    ASSERT_FALSE(columns(1, 1).empty());
+    EXPECT_NEAR(columns(1, 0).front(), columns(1, 1).front(), 2);
+    EXPECT_NEAR(columns(1, 0).back(), columns(1, 1).back(), 2);
+    EXPECT_LT(columns(0, 0).back(), columns(1, 0).back() - 50);
+    EXPECT_TRUE(columns(0, 1).empty());
 }
 
 // A deflection of the size of rounding errors is drawn as zero.

@@ -51,6 +51,22 @@ TEST(Labels, UnusualParametersAreStated) {
     EXPECT_TRUE(has(problem, "η\u2009=\u2009500\u00A0µs"));
 }
 
+TEST(Labels, ComparedMotionsStateWhatDiffers) {
+    sim::Problem flexible, rigid, fast;
+    rigid.beam.model = sim::ModelKind::rigid;
+    fast.beam.modes = 8, fast.cam->speed = 5;
+    const auto own = [](std::vector<const sim::Problem*> problems, const std::vector<std::string>& labels) {
+        std::vector<std::string> out;
+        for (const std::string& piece : compared_pieces(problems, labels, {}, {}))
+            if (to_plain(piece).find(": ") != std::string::npos) out.push_back(to_plain(piece));
+        return out;
+    };
+    EXPECT_EQ(own({&flexible, &rigid}, {"flexible", "rigid"}),
+              std::vector<std::string>{"flexible: first-order, 2 modes"});
+    EXPECT_EQ(own({&flexible, &fast}, {"ω = 1 rad/s", "ω = 5 rad/s"}),
+              (std::vector<std::string>{"ω = 1 rad/s: first-order, 2 modes", "ω = 5 rad/s: first-order, 8 modes"}));
+}
+
 TEST(Labels, BothCoefficientsOfStickSlipAreTold) {
     sim::Problem problem;
     problem.contact.friction = sim::StickSlipFriction{0.2, 0.35, {}};

@@ -328,6 +328,10 @@ TEST(Overviews, TakeAnIntervalAndNoOtherKeysOfSeries) {
     EXPECT_THAT(report(R"("figure": "strobe", "channels": ["theta"])"), HasSubstr("belongs to the figure"));
     EXPECT_THAT(report(R"("figure": "deflection", "from": 0.1)"), HasSubstr("belongs to the figure"));
     EXPECT_THAT(report(R"("figure": "kymograph", "from": 0.1, "to": 0.1)"), HasSubstr("is not before the end"));
+    EXPECT_THAT(testing::read(
+                    R"({"contact": {"model": "restitution"}, "outputs": [{"type": "figure", "figure": "collision"}]})")
+                    .report(),
+                HasSubstr("nothing is between collision 1 and liftoff 1"));
 }
 
 TEST(Overviews, KeysOfOtherFiguresAreRejectedWithTheNamesOfThese) {

@@ -55,7 +55,7 @@ TEST(Story, ImpactTellsTheEventsOfTheFirstCollision) {
     const sim::Collision c = motion_of(kFlexible, 1).collisions.at(0);
     const auto near = [](double t) { return ::testing::DoubleNear(t, 1e-3); };
     EXPECT_THAT(shown_at(film, "touches 250"), near(c.t_start));
-    EXPECT_THAT(shown_at(film, "after the touch"), near(*c.t_peak));
+    EXPECT_THAT(shown_at(film, "with 4 modes, "), near(*c.t_peak));  // which change the force
     EXPECT_THAT(shown_at(film, "lifts off after"), near(*c.t_end));
     EXPECT_THAT(shown_at(film, "rebound"), near(film.end_time));
     EXPECT_GT(film.end_time, *c.t_end);
