@@ -19,6 +19,10 @@
 
 namespace beamcam::sim {
 
+// Shares of the size of a quantity below which a difference is the rounding of one operation on it or of a long
+// computation, or shows in no result. A step of Newton's method that is negligible leaves an error of its square.
+inline constexpr double kRounding = 1e-14, kLongRounding = 1e-12, kNegligible = 1e-9;
+
 // Iterations of Newton's method, with bisection as a safeguard: bisection alone needs 52.
 inline constexpr int kMostIterations = 60;
 
@@ -158,15 +162,14 @@ Vec2 climb(F&& f, Vec2 a, Vec2 b, Vec2 c, double to_beat, double negligible) {
 // both limits count.
 template <class F>
 Vec2 largest_over(const std::vector<double>& ends, F&& f) {
-    constexpr int kSamples = 8;        // in an interval
-    constexpr int kHalvings = 20;      // of the part between an end and the next sample
-    constexpr double kInside = 1e-13;  // of an interval: its last sample does not belong to the next one
+    constexpr int kSamples = 8;    // in an interval
+    constexpr int kHalvings = 20;  // of the part between an end and the next sample
     Vec2 best{ends.front(), -std::numeric_limits<double>::infinity()};
     const auto keep = [&best](const Vec2& at) {
         if (at.y > best.y) best = at;
     };
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-        const double width = (ends[i + 1] - ends[i]) * (1 - kInside);
+        const double width = (ends[i + 1] - ends[i]) * (1 - kLongRounding);
         std::array<Vec2, kSamples + 1> samples;
         for (std::size_t k = 0; k <= kSamples; ++k) {
             const double x = ends[i] + width * static_cast<double>(k) / kSamples;

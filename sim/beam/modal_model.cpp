@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace beamcam::sim {
+#include "sim/base/numerics.hpp"
 
-constexpr double kLostInertia = 1e-9;  // of the straight beam's inertia: anything less counts as not positive
+namespace beamcam::sim {
 
 ModalModel::ModalModel(const Problem& problem) : Model(problem), kind_(problem.beam.model) {
     auto tables = std::make_shared<Tables>();
@@ -107,7 +107,7 @@ bool ModalModel::assemble(double* f) {
     f[0] = -2 * Theta_dot * bq_.dot(dq) - gravity_ * gravity_torque;
     add_damping(f);
     const double schur = coupled_ ? inertia_ - m.U.squaredNorm() / mass_ : inertia_;
-    return schur > kLostInertia * m.J;
+    return schur > kNegligible * m.J;
 }
 
 void ModalModel::solve(double* f) const {

@@ -3,13 +3,12 @@
 #include <algorithm>
 
 #include "sim/base/linear_algebra.hpp"
+#include "sim/base/numerics.hpp"
 #include "sim/beam/exact_model.hpp"
 #include "sim/beam/modal_model.hpp"
 #include "sim/beam/second_order_model.hpp"
 
 namespace beamcam::sim {
-
-constexpr double kUncoupledDamping = 1e-9;  // of the largest entry of C_d: smaller off-diagonal ones are rounding
 
 Model::Model(const Problem& problem)
     : length_(problem.beam.length),
@@ -87,7 +86,7 @@ void Model::build_damping(const Problem& problem) {
     damping = 0.5 * (damping + damping.transpose()).eval();
     const Eigen::MatrixXd diagonal = damping.diagonal().asDiagonal();
     const double off = (damping - diagonal).cwiseAbs().maxCoeff();
-    const bool uncoupled = off <= kUncoupledDamping * diagonal.cwiseAbs().maxCoeff();
+    const bool uncoupled = off <= kNegligible * diagonal.cwiseAbs().maxCoeff();
     damping_ = std::make_shared<Eigen::MatrixXd>(uncoupled ? diagonal : damping);
 }
 

@@ -140,7 +140,6 @@ CamShape::CamShape(const Problem& problem)
     std::vector<double> ends;
     double size = disc_radius_ + eccentricity_;
     if (problem.cam->profile) {
-        constexpr double kNarrow = 1e-12;  // [rad] an interval as short as the rounding of its ends
         const std::vector<ProfileSpan> spans = spans_of(problem);
         size = 0;
         for (const ProfileSpan& span : spans) {
@@ -149,10 +148,11 @@ CamShape::CamShape(const Problem& problem)
         }
         for (const ProfileSpan& span : spans)
             for (double from = span.from; from < span.to;) {
-                const double turn = kFullTurn * std::floor((from + kNarrow) / kFullTurn);
+                const double turn = kFullTurn * std::floor((from + kLongRounding) / kFullTurn);
                 const double to = std::min(span.to, turn + kFullTurn);
-                if (to - from > kNarrow) Fit{span, turn, size, pieces_}.cover(std::max(0.0, from - turn), to - turn);
-                from = std::max(to, from + kNarrow);
+                if (to - from > kLongRounding)
+                    Fit{span, turn, size, pieces_}.cover(std::max(0.0, from - turn), to - turn);
+                from = std::max(to, from + kLongRounding);
             }
         std::ranges::sort(pieces_, {}, &Piece::from);
         for (const ProfileSpan& span : spans) ends.push_back(reduced(span.from));

@@ -13,7 +13,6 @@
 namespace beamcam::sim {
 namespace {
 
-constexpr double kSameTurn = 1e-9;         // [rad] of sums of angles that are written with ten digits
 constexpr double kShortestSegment = 1e-6;  // [rad] of a segment: the outline would turn in less than a step's rounding
 constexpr double kSharp = 1e-6;            // of the outline's size: a radius of curvature that is an edge
 constexpr double kTangent = 1e-6;          // of the outline's size: the digits of a drawing
@@ -77,7 +76,7 @@ class LawCheck {
                       fmt::format("nothing is left of the turn for it: the segments before it last {:.6g} "
                                   "deg of 360 deg; shorten one of them",
                                   degrees(sum)));
-        } else if (!(std::fabs(sum - kFullTurn) <= kSameTurn)) {
+        } else if (!(std::fabs(sum - kFullTurn) <= kNegligible)) {
             error(
                 key_of(last, ".over"),
                 fmt::format("the segments last {:.10g} deg, not 360 deg; {}", degrees(sum),
@@ -93,7 +92,7 @@ class LawCheck {
             sum += profile_.segments[i].rise;
             if (profile_.segments[i].law != MotionLaw::dwell) last = i;
         }
-        if (!(std::fabs(sum) <= kSameTurn))
+        if (!(std::fabs(sum) <= kNegligible))
             error(key_of(last, ".rise"),
                   fmt::format("the rises sum to {:.10g} deg, so that the outline would not close; "
                               "write {:.10g} deg here, or change another rise",

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/base/numerics.hpp"
 #include "sim/cam/profile_spans.hpp"
 
 namespace beamcam::sim {
@@ -56,8 +57,7 @@ std::vector<Vec2> counter_clockwise(const PointsProfile& profile) {
         points.push_back({profile.x[i], profile.y[i]});
     double size = 0, area = 0;
     for (const Vec2& p : points) size = std::max(size, norm(p));
-    constexpr double kSamePoint = 1e-9;  // of the size: a point that was written twice, in the digits of a file
-    if (points.size() > 1 && norm(points.front() - points.back()) <= kSamePoint * size) points.pop_back();
+    if (points.size() > 1 && norm(points.front() - points.back()) <= kNegligible * size) points.pop_back();
     for (std::size_t i = 0; i < points.size(); ++i) area += cross(points[i], points[(i + 1) % points.size()]);
     if (area < 0) std::ranges::reverse(points);
     return points;

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/base/numerics.hpp"
 #include "sim/cam/motion_law.hpp"
 
 namespace beamcam::sim {
 namespace {
 
-constexpr int kMostRefinements = 30;        // Newton's method needs three to six
-constexpr double kLastRefinement = 1e-8;    // [rad]: the next step of Newton's method, which squares it, is rounding
 constexpr double kLongestRefinement = 0.3;  // [rad]
 constexpr int kNormalsOfSearch = 128;
 
@@ -66,14 +65,14 @@ double TurningCam::nearest_normal(Vec2 point, double alpha) const {
 // Newton's method for the largest P·n − h, whose second derivative is −(P·n − h + ρ). False: it does not lead to a
 // tangent that separates the point from the cam.
 bool TurningCam::refine_normal(Vec2 point, double& alpha) const {
-    for (int i = 0; i < kMostRefinements; ++i) {
+    for (int i = 0; i < kMostIterations; ++i) {
         const CamPoint at = shape_->at(alpha);
         const Vec2 n = unit(alpha);
         const double curvature = dot(point, n) - at.h + at.radius;
         if (!(curvature > 0)) return false;
         const double step = (dot(point, perp(n)) - at.slope) / curvature;
         alpha += std::clamp(step, -kLongestRefinement, kLongestRefinement);
-        if (std::fabs(step) < kLastRefinement) return true;
+        if (std::fabs(step) < kNegligible) return true;
     }
     return false;
 }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "sim/base/numerics.hpp"
 #include "sim/problem/problem.hpp"
 
 namespace beamcam::sim {
@@ -16,7 +17,6 @@ inline constexpr double kChatterShare = 1e-3;
 inline constexpr double kRestSpeed = 1e-12;         // [m/s]: smaller speeds are rounding
 inline constexpr double kRestAcceleration = 1e-20;  // [m/s²]: smaller ones are rounding, and move nothing in any run
 inline constexpr double kLowestBounce = 1e-13;      // of the beam's length: a hundred times the gap's rounding error
-inline constexpr double kPlastic = 1e-9;            // of the approach speed: a slower rebound is rounding
 // Conditions of summed-up chatter (S57): its duration times the highest frequency, for an error of (10⁻³)²/6 of the
 // last rebound; and the relative change of the acceleration towards the cam.
 inline constexpr double kBriefChatter = 1e-3, kSteadyPull = 1e-2;
@@ -27,7 +27,7 @@ struct Bounce {
 
     // Slow enough that all further bounces may be summed up.
     bool is_summable(const Contact& contact) const {
-        return rebound > kPlastic * approach && rebound < approach &&
+        return rebound > kNegligible * approach && rebound < approach &&
                rebound < kSummedShare * contact.approach_floor.value;
     }
     // The time until they end under a constant acceleration towards the cam.

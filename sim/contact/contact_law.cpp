@@ -4,11 +4,9 @@
 #include <cmath>
 
 #include "sim/base/assert.hpp"
+#include "sim/base/numerics.hpp"
 
 namespace beamcam::sim {
-
-constexpr int kMostNewton = 30;
-constexpr double kNewtonRounding = 1e-8;  // of the last step, whose error is the square
 
 double NormalLaw::elastic(double penetration) const {
     if (!(penetration > 0)) return 0;
@@ -59,11 +57,11 @@ double FrictionLaw::slip_near(double normal, double friction, double slip, doubl
     const double most = mobility * kinetic * normal, trial = slip - mobility * friction;
     if (!(most > slip_speed)) return slip;
     double v = trial / (1 + most / slip_speed);
-    for (int i = 0; i < kMostNewton; ++i) {
+    for (int i = 0; i < kMostIterations; ++i) {
         const double share = std::tanh(v / slip_speed);
         const double step = (trial - v - most * share) / (1 + most / slip_speed * (1 - share * share));
         v += step;
-        if (!(std::fabs(step) > kNewtonRounding * std::fabs(v))) break;
+        if (!(std::fabs(step) > kNegligible * std::fabs(v))) break;
     }
     return v;
 }

@@ -8,9 +8,6 @@
 
 namespace beamcam::sim {
 
-// |1 + D δ̇/δ̇₋| below this is rounding: it has no sign, and the clamp of the force is neither on nor off.
-inline constexpr double kZeroFactor = 1e-9;
-
 // The force and its derivatives by penetration and penetration rate; zero where the force is clamped.
 struct ForceAndSlopes {
     double force = 0, by_depth = 0, by_rate = 0;

@@ -8,8 +8,6 @@
 
 namespace beamcam::sim {
 
-constexpr double kFootChange = 1e-14;     // of the length: rounding error of the arc position
-constexpr double kLastFootChange = 1e-9;  // of the length: a Newton step this short leaves only rounding errors
 // Intervals of a search along the beam, besides 2 or 4 for each coordinate: more for more curved shapes.
 constexpr int kIntervalsOfModes = 9, kIntervalsOfExact = 13;
 
@@ -82,7 +80,7 @@ BeamPoint ContactGeometry::foot(const Model& model, double t, double x, ContactS
             low = std::max(low, x);
         const double bend = dot(at.r2, d) + dot(at.r1, at.r1);
         double next = bend > 0 ? x - slope / bend : (slope > 0 ? low : high);
-        if (bend > 0 && std::fabs(next - x) <= kLastFootChange * length_ && next > 0 && next < length_) {
+        if (bend > 0 && std::fabs(next - x) <= kNegligible * length_ && next > 0 && next < length_) {
             if (next != x) model.point(x = next, at);
             if (!cam_.is_disc()) c.disc = cam_.disc(t, facing(at));
             break;
@@ -94,7 +92,7 @@ BeamPoint ContactGeometry::foot(const Model& model, double t, double x, ContactS
         }
         // At an end the slope there decides, however near it is.
         const bool inside = next > 0 && next < length_;
-        if (next == x || (inside && std::fabs(next - x) <= kFootChange * length_)) break;
+        if (next == x || (inside && std::fabs(next - x) <= kRounding * length_)) break;
         x = next;
     }
     c.x = x;

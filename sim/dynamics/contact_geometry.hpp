@@ -6,9 +6,6 @@
 
 namespace beamcam::sim {
 
-// Ten times the rounding error of the gap, over the length. Smaller openings and penetrations are rounding.
-inline constexpr double kGapRounding = 1e-14;
-
 // The contact in one state of the system.
 struct ContactState {
     double x = 0;                  // x_c [m]

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/base/linear_algebra.hpp"
+#include "sim/base/numerics.hpp"
 #include "sim/cam/lever.hpp"
 #include "sim/dynamics/newton.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 // than the second number is a chain: its load is 5·10³.
 constexpr double kLoadStep = 5, kMostLoadSteps = 1000;
 constexpr double kRestingLoadStep = 0.5;  // the same on the cam, which a beam bent in one step would leave
-constexpr double kLeastDepth = 1e-6;      // of the length: kBalanced of it is the rounding of a gap
+constexpr double kLeastDepth = 1e-6;      // of the length: kNegligible of it is the rounding of a gap
 // [rad] of the cam: step of finite differences of fourth order, at which truncation and rounding are equal.
 constexpr double kFollowingDifference = 5e-3;
 
@@ -158,7 +159,7 @@ bool equilibrium_on_cam(System& system, double t, FollowingState& s) {
     };
     const bool found = newton(residual, x, scale, size);
     s.xi = x.head(n);
-    return found && x[n] >= -kBalanced * scale[n];
+    return found && x[n] >= -kNegligible * scale[n];
 }
 
 // The start of a beam that follows the turning cam. Equilibria at neighbouring cam angles give the rates, the rates

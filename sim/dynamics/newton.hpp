@@ -10,8 +10,6 @@ namespace beamcam::sim {
 
 inline constexpr int kMaxHalvings = 20;            // of one step
 inline constexpr double kNewtonDifference = 1e-7;  // of an unknown's magnitude: step of the finite differences
-inline constexpr double kNewtonConverged = 1e-13;  // of an unknown's magnitude: a converged step
-inline constexpr double kBalanced = 1e-9;          // of the natural forces: largest residual in equilibrium
 
 // Half the difference of f between x + step and x − step.
 template <class F>
@@ -52,9 +50,9 @@ bool newton(F&& function, Eigen::VectorXd& x, const Eigen::VectorXd& scale, cons
                 break;
             }
         }
-        if ((factor * dx).cwiseQuotient(scale).cwiseAbs().maxCoeff() < kNewtonConverged) return true;
+        if ((factor * dx).cwiseQuotient(scale).cwiseAbs().maxCoeff() < kLongRounding) return true;
     }
-    return f.norm() < kBalanced;
+    return f.norm() < kNegligible;
 }
 
 }  // namespace beamcam::sim

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sim/base/counted.hpp"
+#include "sim/base/numerics.hpp"
 #include "sim/beam/table_smoothing.hpp"
 #include "sim/cam/cam_shape.hpp"
 #include "sim/cam/check_profile.hpp"
@@ -22,10 +23,8 @@ namespace beamcam::sim {
 namespace {
 
 constexpr double kLeastFiniteRestitution = 0.01;  // for dissipation laws with D → ∞ as c → 0
-constexpr double kStartGap = 1e-12;      // of the length, at least of 1 m: smaller overlaps at the start are rounding
-constexpr double kContinuedGap = 1e-9;   // of the same: beam and cam that are said to touch are no farther apart
-constexpr double kSameExponent = 1e-3;   // of a contact exponent that is written with a few digits
-constexpr double kFarRestitution = 0.2;  // of the pre-set restitution from that of impacts: worth a warning
+constexpr double kSameExponent = 1e-3;            // of a contact exponent that is written with a few digits
+constexpr double kFarRestitution = 0.2;           // of the pre-set restitution from that of impacts: worth a warning
 // Squares, cubes and products of a few numbers between these neither overflow nor vanish.
 constexpr double kSmallestInertia = 1e-60, kLargestInertia = 1e60;  // mass [kg], moment of inertia [kg m²]
 constexpr double kSmallestScale = 1e-30, kLargestScale = 1e30;      // frequency [rad/s], penetration [m]
@@ -177,7 +176,7 @@ void check_cam(Issues& out, const Problem& p) {
 bool check_continued_contact(Issues& out, const Problem& p, double gap) {
     const std::optional<InitialContact>& contact = p.initial.contact;
     if (!contact || !contact->touching) return false;
-    const double farthest = kContinuedGap * std::max(1.0, p.beam.length);
+    const double farthest = kNegligible * std::max(1.0, p.beam.length);
     if (gap > farthest || (gap < -farthest && p.contact.model == ContactModel::restitution))
         out.error("initial.contact", fmt::format("beam and cam do not touch at the start: the gap is {:.3g} m; remove "
                                                  "\"contact\", or give the state that belongs to it",
@@ -244,7 +243,7 @@ void check_geometry(Issues& out, const Problem& p, const CamShape& shape) {
         const ContactState start = contact_at_start(p);
         const double gap = start.gap + (p.initial.contact ? p.initial.contact->gap_offset : 0);
         if (check_continued_contact(out, p, gap)) return;
-        if (gap < -kStartGap * std::max(1.0, p.beam.length))
+        if (gap < -kLongRounding * std::max(1.0, p.beam.length))
             out.error(
                 std::holds_alternative<AngleTable>(p.hub.drive) ? "hub.drive.theta" : "initial.angle",
                 fmt::format("beam and cam overlap by {:.3g} m at the start (at {:.3g} m along the beam); raise the "

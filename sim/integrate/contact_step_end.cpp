@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/base/numerics.hpp"
+
 namespace beamcam::sim {
 
 constexpr int kMostCuts = 8;                                 // of a step, to end it at an event
 constexpr double kCarriedKick = 0.1;                         // of the tolerance, that the force in between may change
-constexpr double kEndRounding = 1e-13;                       // of a step: the end lies on the event
 constexpr double kLeastLength = 1e-14, kLeastShift = 1e-16;  // [s] below the rounding of any time in a run
 constexpr double kResolvedTurn = 2;  // [rad] of a mode between two instants, which their cubic resolves (S58)
 
@@ -40,9 +41,9 @@ double ContactStepEnd::first_event(Ending ending, Ending& found) {
 double ContactStepEnd::first_force_event(Ending ending, Ending& found) {
     const Collocation& gauss = Collocation::get();
     const ContactKinematics<Lanes>& nodes = contact_.load.contact;
-    const double h = step_.segment.h, deep = kGapRounding * step_.form->length;
+    const double h = step_.segment.h, deep = kRounding * step_.form->length;
     const bool clamps = law_.damping > 0;
-    const double level = clamps ? -contact_.approach / law_.damping : 0, none = kZeroFactor * -level;
+    const double level = clamps ? -contact_.approach / law_.damping : 0, none = kNegligible * -level;
     ripples_from_ = step_.n;
     const auto probe = [&](double t) { return penetration_at(t); };
     const auto ripple = [&](double span) { return unresolved(span); };
@@ -122,7 +123,7 @@ double ContactStepEnd::solve_to(double end, Ending ending) {
         if (!(error <= 1)) return error;
         const double dt = to_event(h, ending);
         if (!std::isfinite(dt)) return kNoSolution;
-        if (std::fabs(dt) < kEndRounding * h + kLeastShift) return error;
+        if (std::fabs(dt) < kLongRounding * h + kLeastShift) return error;
         if (std::fabs(dt) >= closest) return ending == Ending::friction ? kNoSolution : error;
         if (ending == Ending::clamp && std::fabs(dt) < kOnKink * h) return error;
         if (ending == Ending::friction && std::fabs(dt) < kCarried * h) {

@@ -7,22 +7,20 @@
 #include <utility>
 
 #include "sim/base/assert.hpp"
+#include "sim/base/numerics.hpp"
 #include "sim/integrate/contact_step_end.hpp"
 #include "sim/integrate/integrator.hpp"
 
 namespace beamcam::sim {
 namespace {
 
-constexpr double kLeastStep = 1e-14;  // of the time: rounding
 // A step of flight errs by the power 8 of its length, one in contact by 12 where the force has just set in. A level is
 // a factor √2 in length: below these errors the next step is one level longer, or two.
 constexpr int kFlightOrder = 8, kTouchOrder = 12;
 constexpr double kLongerTouch = 0.02, kMuchLongerTouch = 1e-4;
 constexpr double kShortestFlight = 4e-16, kShortestTouch = 1e-13;  // of the time: rounding; of the force
 constexpr double kShortestTouchEver = 1e-11;                       // [s] no contact is as stiff
-constexpr int kMostSweeps = 12;  // in flight: at a contraction of a half a step half as long is cheaper
-// Changes of the iteration that no longer fall are rounding once they are below this share of the largest.
-constexpr double kFlightRounding = 1e-12;
+constexpr int kMostSweeps = 12;     // in flight: at a contraction of a half a step half as long is cheaper
 constexpr int kFlightPatience = 1;  // a damper at the hub answers to the first change of the vibration
 // [–] of the period of the fastest mode over 2π: where collocation of a constraint needs shorter steps, rounding rules.
 constexpr double kShortestHeld = 1e-5;
@@ -36,7 +34,7 @@ constexpr long kFirstRetry = 32;  // steps of the other method before the next t
 double solve_flight(NodalStep& step, const StepTable& table) {
     step.begin_attempt(table);
     step.propagate_unforced(table);
-    FixedPoint iteration(kFlightRounding, kStalled, kFlightPatience);
+    FixedPoint iteration(kLongRounding, kStalled, kFlightPatience);
     auto status = FixedPoint::Status::going;
     for (int sweep = 0; sweep < kMostSweeps && status == FixedPoint::Status::going; ++sweep) {
         step.propagate(table);
@@ -155,7 +153,7 @@ class Exponential final : public Integrator {
     // is.
     const StepTable& flight_table(bool& last) {
         const double level = step_length(flight_level_);
-        const double h = std::min(level, std::max(first_step_, kLeastStep * std::fabs(t_)));
+        const double h = std::min(level, std::max(first_step_, kRounding * std::fabs(t_)));
         last = t_ + kRestLevel * h >= stop_;
         if (last) return tables_.length(stop_ - t_);
         return h < level ? tables_.length(h) : tables_.level(flight_level_);

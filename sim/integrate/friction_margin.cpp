@@ -8,8 +8,7 @@
 
 namespace beamcam::sim {
 
-constexpr double kMarginRounding = 1e-9;  // of the largest margin of friction in a step
-constexpr int kPartsBetweenNodes = 4;     // in which a polynomial of degree seven has no more than one extremum
+constexpr int kPartsBetweenNodes = 4;  // in which a polynomial of degree seven has no more than one extremum
 
 FrictionMargin::FrictionMargin(const NodalStep& step, const ContactStep& contact) : h_(step.segment.h) {
     const FrictionLaw& friction = step.system.friction();
@@ -27,7 +26,7 @@ FrictionMargin::FrictionMargin(const NodalStep& step, const ContactStep& contact
     const double z = step.system.bristle(step.next.data());
     margin(kNodes + 1, contact.end.gap, contact.end.gap_rate, contact.end.slip, z, contact.end.radius);
     deep_ = 0;
-    for (const double m : at_) deep_ = std::max(deep_, kMarginRounding * std::fabs(m));
+    for (const double m : at_) deep_ = std::max(deep_, kNegligible * std::fabs(m));
 }
 
 double FrictionMargin::time(int k) const { return k == 0 ? 0 : k > kNodes ? h_ : h_ * Collocation::get().c[k - 1]; }

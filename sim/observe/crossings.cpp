@@ -8,8 +8,6 @@
 namespace beamcam::sim {
 namespace {
 
-constexpr double kSignRounding = 1e-14;  // of the largest sample: values below it have no sign
-
 // The points of the channel above the level, in the order of time: its samples, and the turning points beyond the level
 // between samples on one side of it. Values below rounding of the samples are zero at the start of the motion: no
 // earlier step determines the sign of a start from rest.
@@ -24,7 +22,7 @@ std::vector<Vec2> points_of(StepSamples& step, const SegmentInterval& s, Channel
         points.push_back({series.t[k], series.value[k] - level});
         largest = std::max(largest, std::fabs(points.back().y));
     }
-    if (s.from == 0 && std::fabs(points.front().y) <= kSignRounding * largest) points.front().y = 0;
+    if (s.from == 0 && std::fabs(points.front().y) <= kRounding * largest) points.front().y = 0;
     std::vector<Vec2> turns;
     for (std::size_t k = 1; k + 1 < points.size(); ++k) {
         const double side = points[k].y > 0 ? -1 : 1;
@@ -33,8 +31,8 @@ std::vector<Vec2> points_of(StepSamples& step, const SegmentInterval& s, Channel
         const auto top = vertex(turned(k - 1), turned(k), turned(k + 1));
         if (!top || !(top->y > -kParabolaError * (top->y - turned(k).y))) continue;
         const auto f = [&](double t) { return side * (step.value(channel, t) - level); };
-        const Vec2 turn = climb(f, turned(k - 1), turned(k), turned(k + 1), 0, kSignRounding * largest);
-        if (turn.y > kSignRounding * largest) turns.push_back({turn.x, side * turn.y});
+        const Vec2 turn = climb(f, turned(k - 1), turned(k), turned(k + 1), 0, kRounding * largest);
+        if (turn.y > kRounding * largest) turns.push_back({turn.x, side * turn.y});
     }
     points.insert(points.end(), turns.begin(), turns.end());
     std::ranges::sort(points, {}, &Vec2::x);

@@ -8,13 +8,14 @@
 #include <string_view>
 #include <type_traits>
 
+#include "sim/base/numerics.hpp"
+
 namespace beamcam::sim {
 
 namespace {
 
 constexpr int kMostCurveHalvings = 8;  // of the piece between two rows
 constexpr int kMostRowHalvings = 16;   // of the piece between two rows of an adaptive table
-constexpr double kRowRounding = 1e-9;  // of a channel's natural size: differences that rows do not show
 // Poses are taken within the first steps of a contact: after them a collision is over, and a lasting contact is slow.
 constexpr int kContactPoseSteps = 4;
 
@@ -45,7 +46,7 @@ std::vector<double> rounding_of(const std::vector<Channel>& channels, const Prob
         double size = followed ? 1 : std::numeric_limits<double>::infinity();
         for (const auto& [of, natural] : sizes)
             if (of == unit(channel, problem)) size *= natural;
-        out.push_back(kRowRounding * size);
+        out.push_back(kNegligible * size);
     }
     return out;
 }

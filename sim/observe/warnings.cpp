@@ -6,16 +6,16 @@
 #include <cmath>
 
 #include "sim/base/counted.hpp"
+#include "sim/base/numerics.hpp"
 #include "sim/contact/chatter.hpp"
+#include "sim/problem/assumptions.hpp"
 
 namespace beamcam::sim {
 namespace {
 
-constexpr double kMissedPeak = 0.95;          // of the largest force: rows that reach less miss it
-constexpr double kBalanceTolerances = 10;     // times rtol: the accuracy of `auto`; a larger error is a warning
-constexpr double kEnergyRounding = 1e-12;     // of the energy scale
-constexpr double kReportedGap = 1e-10;        // of the length, left at an event: 1000 times rounding
-constexpr double kForeshorteningSlope = 0.3;  // [rad] beyond which the modal models' u ≈ −½∫v′² misses 2 %
+constexpr double kMissedPeak = 0.95;       // of the largest force: rows that reach less miss it
+constexpr double kBalanceTolerances = 10;  // times rtol: the accuracy of `auto`; a larger error is a warning
+constexpr double kReportedGap = 1e-10;     // of the length, left at an event: 1000 times rounding
 
 void warn_of_chatter(const Problem& problem, const RunStatistics& statistics, std::vector<std::string>& out) {
     if (statistics.chatters == 0) return;
@@ -59,7 +59,7 @@ void warn_of_gains(const Problem& problem, const Result& result, std::vector<std
     double gained = 0;
     long count = 0;
     for (const Impact& impact : result.impacts)
-        if (impact.v_n_before < 0 && impact.energy_lost < -kEnergyRounding * result.energy_scale)
+        if (impact.v_n_before < 0 && impact.energy_lost < -kLongRounding * result.energy_scale)
             ++count, gained -= impact.energy_lost;
     if (count > 0)
         out.push_back(fmt::format(
@@ -133,7 +133,7 @@ void warn_of_fallbacks(const Problem& problem, const RunStatistics& statistics, 
 bool bends_beyond(const Problem& problem, double largest_elastic) {
     const ModelKind model = problem.beam.model;
     return model != ModelKind::exact && model != ModelKind::rigid &&
-           slope_bound(problem, largest_elastic) > kForeshorteningSlope;
+           slope_bound(problem, largest_elastic) > kSmallSlope;
 }
 
 std::vector<std::string> warnings(const Problem& problem, const Result& result, const RunStatistics& statistics,

@@ -4,13 +4,13 @@
 #include <limits>
 
 #include "sim/base/linear_algebra.hpp"
+#include "sim/base/numerics.hpp"
 #include "sim/base/ode.hpp"
 
 namespace beamcam::sim {
 namespace {
 
-constexpr int kMaxArcNewton = 8;         // iterations; if a prediction needs more, the step is shortened
-constexpr double kArcAcceptable = 1e-9;  // residual over the orbit's size if rounding allows no further decrease
+constexpr int kMaxArcNewton = 8;  // iterations; if a prediction needs more, the step is shortened
 // The finite difference for ∂P/∂p, as a share of the range, affects the tangent and the corrector's convergence.
 constexpr double kArcDifference = 1e-6;
 constexpr double kNearFold = 0.1;  // of the unit tangent: its part along the parameter is smaller near a fold
@@ -52,7 +52,7 @@ Eigen::VectorXd BranchArc::slope(const Eigen::VectorXd& z, const Eigen::VectorXd
 // The ends of the range may be the last values with a problem: rounding must not pass them.
 double BranchArc::parameter(double share) const {
     const double end = std::round(share);
-    if (std::fabs(share - end) < kAtRangeEnd) share = end;
+    if (std::fabs(share - end) < kLongRounding) share = end;
     return std::lerp(request_.from, request_.to, share);
 }
 
@@ -100,8 +100,8 @@ std::optional<ArcPoint> BranchArc::correct(Eigen::VectorXd z, const Eigen::Vecto
         if (!std::isfinite(size)) return std::nullopt;
         const Eigen::VectorXd step = solve(bordered, residual);
         // An unstable orbit amplifies rounding in the residual, not in z.
-        const bool rounding = size > 0.5 * last && (size < kArcAcceptable || step.norm() < kArcConverged);
-        if (size < kArcConverged || rounding) {
+        const bool rounding = size > 0.5 * last && (size < kNegligible || step.norm() < kOrbitConverged);
+        if (size < kOrbitConverged || rounding) {
             return ArcPoint{z, solve(bordered, Eigen::VectorXd::Unit(n + 1, n)).normalized(), value.derivative,
                             section.orbit(y, value)};
         }

@@ -10,10 +10,6 @@
 
 namespace beamcam::sim {
 
-// Residual of a converged corrector over the orbit's size.
-inline constexpr double kArcConverged = 1e-11;
-inline constexpr double kAtRangeEnd = 1e-12;  // of the range: rounding
-
 // A point of the curve: z is the state of the orbit and the parameter, in shares of its range; `tangent` is that of the
 // curve.
 struct ArcPoint {

@@ -17,7 +17,7 @@
 namespace beamcam::sim {
 namespace {
 
-constexpr double kSmallestArc = 1e-9;  // of the range: smallest step, located end of a branch; of μ: no imaginary part
+constexpr double kSmallestArc = 1e-9;  // of the range: smallest step, located end of a branch
 // What is so close is one: the multiplier 1 at a fold; impact speeds half a period apart, relatively; of the range, a
 // period doubling at which the branch of doubled period is bracketed.
 constexpr double kClose = 1e-3;
@@ -62,7 +62,7 @@ CircleTest circle_of(const ArcPoint& p) {
             product *= factor;
             if (!(std::abs(factor) < test.nearest)) continue;
             test.nearest = std::abs(factor);
-            test.complex = std::fabs(m[i].imag()) > kSmallestArc && std::abs(m[i] - std::conj(m[j])) < kOnCircle;
+            test.complex = std::fabs(m[i].imag()) > kNegligible && std::abs(m[i] - std::conj(m[j])) < kOnCircle;
         }
     test.product = product.real();
     return test;
@@ -82,7 +82,7 @@ bool beyond_range(const Eigen::VectorXd& z) { return z[z.size() - 1] < 0 || z[z.
 // The point is an end of the range, and its tangent points outwards.
 bool leaves_range(const ArcPoint& p) {
     const double share = p.z[p.z.size() - 1];
-    return fold_test(p) < 0 ? share < kAtRangeEnd : share > 1 - kAtRangeEnd;
+    return fold_test(p) < 0 ? share < kLongRounding : share > 1 - kLongRounding;
 }
 
 // The cubic polynomial through two points of a curve with their tangents, at the distance s from `a` along its tangent;
@@ -196,7 +196,7 @@ std::optional<Crossing> Continuation::root(const ArcPoint& a, const ArcPoint& b,
 void Continuation::add(OrbitChange change, const Crossing& crossing, Branch& branch) const {
     const double range = std::fabs(request_.to - request_.from);
     const BranchPoint at = arc_.branch_point(crossing.point);
-    const double residual = kArcConverged * std::max(range, std::fabs(at.parameter));
+    const double residual = kOrbitConverged * std::max(range, std::fabs(at.parameter));
     branch.special.push_back({change, at, residual + range * crossing.uncertainty});
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "sim/base/numerics.hpp"
 #include "sim/orbit/flow_map.hpp"
 #include "sim/run/run.hpp"
 
@@ -20,7 +21,6 @@ constexpr double kLeastShare = 1e-4, kShortest = 1.0 / 64;
 constexpr double kHalvesApart = 4;  // standard errors between the halves of an average
 // Blocks that do not match the period of a periodic motion may differ by this share of the whole.
 constexpr double kBlockRounding = 1e-3;
-constexpr double kNoRank = 1e-13;  // of a unit tangent: a smaller remainder is rounding
 constexpr double kGrazing = 0.01;  // of the root mean square approach speed: slower impacts are near grazing
 // Tolerance of tangents over rtol: their errors enter an exponent once and are not amplified.
 constexpr double kTangentErrors = 100;
@@ -41,7 +41,7 @@ Eigen::VectorXd orthonormalize(Eigen::MatrixXd& v) {
     Eigen::VectorXd lengths = Eigen::VectorXd::Zero(v.cols());
     for (Eigen::Index i = 0; i < v.cols(); ++i) {
         const auto before = v.leftCols(i);
-        const double rounding = kNoRank * v.col(i).norm();
+        const double rounding = kLongRounding * v.col(i).norm();
         for (int repeat = 0; repeat < 2; ++repeat) v.col(i) -= before * (before.transpose() * v.col(i)).eval();
         const double length = v.col(i).norm();
         if (length > rounding) lengths[i] = length;

@@ -12,9 +12,8 @@
 namespace beamcam::sim {
 namespace {
 
-constexpr int kMaxOrbitNewton = 16;  // iterations
-// Residual over the orbit's size: converged; acceptable if rounding allows no further decrease; hopeless.
-constexpr double kOrbitConverged = 1e-11, kOrbitAcceptable = 1e-8, kOrbitLost = 1e3;
+constexpr int kMaxOrbitNewton = 16;   // iterations
+constexpr double kOrbitLost = 1e3;    // residual over the orbit's size without hope
 constexpr double kLongestStep = 0.5;  // of the size: largest Newton step
 constexpr double kReturn = 0.2;       // of the size: distance after some turns at which Newton's method is tried
 constexpr int kThrows = 24;           // cam angles of throws; as many between them if no orbit is found
@@ -57,7 +56,7 @@ std::optional<PeriodicOrbit> newton(const SectionMap& map, Eigen::VectorXd y) {
         const Eigen::VectorXd residual = value.image - y;
         const double size = residual.norm();
         if (!std::isfinite(size) || size > kOrbitLost) return std::nullopt;
-        if (size < kOrbitConverged || (size < kOrbitAcceptable && size > 0.5 * last)) return map.orbit(y, value);
+        if (size < kOrbitConverged || (size < kNegligible && size > 0.5 * last)) return map.orbit(y, value);
         last = size;
         Eigen::VectorXd step = solve(value.derivative - Eigen::MatrixXd::Identity(n, n), -residual);
         if (step.norm() > kLongestStep) step *= kLongestStep / step.norm();

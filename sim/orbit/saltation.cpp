@@ -3,17 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/base/numerics.hpp"
 #include "sim/cam/motion_law.hpp"
 #include "sim/contact/chatter.hpp"
 #include "sim/dynamics/failure.hpp"
 #include "sim/orbit/tangent_step.hpp"
 
 namespace beamcam::sim {
-namespace {
-
-constexpr double kSameSpeed = 1e-9;  // relative difference in speed by rounding of the gap at a touch
-
-}  // namespace
+namespace {}  // namespace
 
 Saltation::Saltation(System& probe, Variation& variation, const Eigen::VectorXd& units)
     : probe_(probe), variation_(variation), units_(units), n_(probe_.coordinates()), rows_(2 * n_ + kTangentMemories) {}
@@ -91,7 +88,7 @@ void Saltation::impact(const Instant& at, Eigen::MatrixXd& tangents) {
     near_ = probe_.contact(at.t, at.before);
     record_touch(at);
     if (!(near_.gap_rate < 0)) throw StepFailure("a touch without speed has no derivative");
-    const bool bounces = !at.is.held && rebound > -kPlastic * near_.gap_rate;
+    const bool bounces = !at.is.held && rebound > -kNegligible * near_.gap_rate;
     variation_.set(at.t, at.before, at.was);
     const Eigen::MatrixXd gap = variation_.contact().row(0), reset = variation_.impact(bounces ? pre_set : 0);
     const Eigen::VectorXd before = flow(at.t, at.before, at.was), after = flow(at.t, at.after, at.is);
@@ -127,7 +124,7 @@ void Saltation::begin_touch(const Instant& at, Eigen::MatrixXd& tangents) {
     record_touch(at);
     const double floor = probe_.problem().contact.approach_floor.value;
     const bool keeps = -near_.gap_rate > floor && probe_.normal_law().damping > 0 &&
-                       std::fabs(at.is.approach + near_.gap_rate) < kSameSpeed * at.is.approach;
+                       std::fabs(at.is.approach + near_.gap_rate) < kNegligible * at.is.approach;
     const Eigen::Index bristle = variation_.bristle(), approach = variation_.approach();
     if (keeps) {
         variation_.set(at.t, at.before, at.was);

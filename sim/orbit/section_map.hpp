@@ -3,10 +3,14 @@
 
 #include <Eigen/Core>
 
+#include "sim/base/numerics.hpp"
 #include "sim/orbit/flow_map.hpp"
 #include "sim/orbit/periodic_orbit.hpp"
 
 namespace beamcam::sim {
+
+// Residual of a converged orbit over its size; one of up to kNegligible is accepted if rounding allows no less.
+inline constexpr double kOrbitConverged = 1e-11;
 
 // Scale of the states near an orbit.
 struct SectionScale {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/base/numerics.hpp"
 #include "sim/integrate/nodal_step.hpp"
 
 namespace beamcam::sim {
@@ -12,7 +13,6 @@ namespace {
 constexpr double kTangentRounding = 1e-11;  // smallest tolerance of a step: that of the differences of Variation
 // Least order of convergence of a step. Step lengths of neighbouring levels differ by √2.
 constexpr int kTangentOrder = 8;
-constexpr double kSameLength = 1e-13;  // of a step: rounding of the time
 
 // The hub as an oscillator without stiffness.
 StepTable::Row hub_row(double h) {
@@ -55,7 +55,7 @@ TangentStep::TangentStep(System& system, Variation& variation, const Eigen::Vect
 // The table of the step length of this level, or of the rest of the interval if that is shorter. Rows: hub, modes.
 const StepTable& TangentStep::table(int level, double rest) {
     const double h = step_length(level);
-    const bool odd = rest <= kRestLevel * h && std::fabs(rest - h) > kSameLength * h;
+    const bool odd = rest <= kRestLevel * h && std::fabs(rest - h) > kLongRounding * h;
     StepTable& entry = odd ? tables_.length(rest) : tables_.level(level);
     if (entry.rows.size() == oscillators_.size()) entry.rows.insert(entry.rows.begin(), hub_row(entry.h));
     return entry;

@@ -10,7 +10,6 @@ namespace {
 
 constexpr double kSlender = 10;              // L/h from which the first modes of Euler and Bernoulli are good to 2 %
 constexpr double kVisibleCorrection = 0.05;  // of a frequency
-constexpr double kSmallSlope = 0.3;          // [rad] beyond which u = −½∫v′² misses 2 %
 constexpr double kShearFactor = 5.0 / 6;     // κ of a rectangle
 
 bool is_of_the_paper(const Beam& beam) {

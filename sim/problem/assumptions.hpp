@@ -8,6 +8,9 @@
 
 namespace beamcam::sim {
 
+// [rad] of the beam's slope, beyond which the foreshortening u = −½∫v′² of the modal models misses 2 %.
+inline constexpr double kSmallSlope = 0.3;
+
 // "beam: …", "contact.stiffness: …"; `has_stiffness`: the scene gives a contact stiffness. `end_time` [s].
 std::vector<std::string> assumptions(const Problem& problem, bool has_stiffness, double end_time);
 

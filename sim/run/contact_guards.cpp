@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "sim/base/numerics.hpp"
 #include "sim/cam/motion_law.hpp"
 #include "sim/contact/chatter.hpp"
 #include "sim/dynamics/failure.hpp"
@@ -14,11 +15,6 @@ namespace {
 
 constexpr double kForceDifference = 1e-4;  // of the step: finite difference for Ṅ, where the force is smooth
 constexpr double kGuardDifference = 1e-2;  // of the step: finite difference for the rate of a guard
-// Less is rounding: a minimum over a guard's largest value, a tensile force over weight and largest force, a distance
-// of events over the subinterval.
-constexpr double kGuardRounding = 1e-9;
-
-constexpr double kPassedKink = 1e-9;  // [rad]: the rounding of an event's place on the cam, and its uncertainty
 
 // Instants at equal intervals in a segment.
 struct Instants {
@@ -39,7 +35,7 @@ std::optional<double> first_dip_of_samples(Value&& value, const Instants& time, 
     };
     double bend = 0;
     for (int i = 1; i < last; ++i) bend = std::max(bend, std::fabs(f[i - 1] - 2 * f[i] + f[i + 1]));
-    const double deep = kGuardRounding * std::fabs(*std::max_element(f, f + last + 1));
+    const double deep = kNegligible * std::fabs(*std::max_element(f, f + last + 1));
     for (int i = 1; i <= last; ++i) {
         if (!(f[i - 1] > 0) || f[i] < 0 || (last > 1 && std::min(f[i - 1], f[i]) > bend)) continue;
         // The sampled values decide the sign: a second evaluation near zero may round otherwise.
@@ -72,7 +68,7 @@ Event ContactGuards::first_lift(const Segment& segment) {
     // A tensile force below this limit is rounding.
     const double mass = probe_.system.model().mass(), largest = *std::max_element(f.begin(), f.begin() + count + 1);
     const double weight = std::fabs(probe_.system.problem().gravity) * mass;
-    const double limit = -kGuardRounding * (weight + largest) - kRestAcceleration * mass;
+    const double limit = -kNegligible * (weight + largest) - kRestAcceleration * mass;
     for (int i = 0; i <= count; ++i) f[static_cast<std::size_t>(i)] -= limit;
     const auto lifted = [&](double t) { return force(t) - limit; };
     if (f[0] < 0) return {EventKind::lift, segment.t0};
@@ -165,7 +161,7 @@ std::optional<double> ContactGuards::first_kink(const Segment& segment) {
     double nearest = std::fabs(turned), kink = 0;
     for (const double k : cam.shape().kinks()) {
         const double ahead = std::copysign(1.0, turned) * std::remainder(k - from, kFullTurn);
-        if (!(ahead > kPassedKink && ahead < nearest)) continue;
+        if (!(ahead > kNegligible && ahead < nearest)) continue;
         nearest = ahead;
         kink = k;
     }
@@ -187,20 +183,20 @@ std::optional<double> ContactGuards::clamp_event(const Segment& segment, const G
     const NormalLaw& law = probe_.system.normal_law();
     if (!(law.damping > 0)) return std::nullopt;
     const double t0 = a.release.t, t1 = b.release.t, level = -state_.phase.approach / law.damping;
-    const bool known = std::fabs(a.clamp) > kZeroFactor;
+    const bool known = std::fabs(a.clamp) > kNegligible;
     if (known) state_.clamp_side = a.clamp > 0 ? 1 : -1;
     const auto penetration = [&](double t) { return evaluate(segment, t).release; };
     std::optional<double> at;
     for (int tries = 0; tries < 2; ++tries, state_.clamp_side = -state_.clamp_side) {
-        at = first_passing(penetration, a.release, b.release, level, state_.clamp_side, -kZeroFactor * level,
-                           kGapRounding * probe_.system.model().length());
+        at = first_passing(penetration, a.release, b.release, level, state_.clamp_side, -kNegligible * level,
+                           kRounding * probe_.system.model().length());
         // Otherwise the step starts on the kink, and the assumed side of it was wrong.
         if (known || !at || *at - t0 > kOnKink * (t1 - t0)) break;
     }
-    const bool shows = known && std::fabs(b.clamp) > kZeroFactor && (a.clamp > 0) != (b.clamp > 0);
+    const bool shows = known && std::fabs(b.clamp) > kNegligible && (a.clamp > 0) != (b.clamp > 0);
     if (shows) {
         const double seen = find_root([&](double t) { return evaluate(segment, t).clamp; }, t0, t1, a.clamp, b.clamp);
-        if (!at || !(*at < seen - kGuardRounding * (t1 - t0))) at = seen;
+        if (!at || !(*at < seen - kNegligible * (t1 - t0))) at = seen;
     }
     return at;
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sim/base/assert.hpp"
+#include "sim/base/numerics.hpp"
 #include "sim/integrate/integrator.hpp"
 
 namespace beamcam::sim {
@@ -27,9 +28,8 @@ constexpr double kSureProjection = 30000, kHopeless = 100;
 // The largest number that a scene may have [length, or rad]. How fast a linear model diverges above its critical
 // speed is a question that runs answer, so that a deflection that no beam has does not end them.
 constexpr double kUnboundedDeflection = 1e30;
-constexpr double kPredictedShift = 1e-3;    // of the step: largest correction of an event's time
-constexpr double kInstantRounding = 1e-14;  // of the time: closer instants are one
-constexpr int kMaxIdleEvents = 50;          // at one instant: then the run stops
+constexpr double kPredictedShift = 1e-3;  // of the step: largest correction of an event's time
+constexpr int kMaxIdleEvents = 50;        // at one instant: then the run stops
 
 std::unique_ptr<Integrator> make_integrator(const Solver& solver, Method method, System& system) {
     double share = solver.method == Method::automatic ? kLocalShare : 1;
@@ -231,7 +231,7 @@ double Run::next_kink() const {
 }
 
 // True if t is reached up to rounding.
-bool Run::is_reached(double t) const { return t - state_.t <= kInstantRounding * std::fabs(state_.t); }
+bool Run::is_reached(double t) const { return t - state_.t <= kRounding * std::fabs(state_.t); }
 
 void Run::pass_kinks() {
     while (!kinks_.empty() && is_reached(kinks_.front())) kinks_.erase(kinks_.begin());

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "sim/base/numerics.hpp"
 #include "sim/dynamics/system.hpp"
 #include "sim/integrate/gap_probe.hpp"
 #include "sim/integrate/integrator.hpp"
@@ -40,7 +41,7 @@ class SegmentProbe {
     // the cam unnoticed, and in which an eccentric cam turns by at most a radian.
     int pieces_by_travel(const Segment& segment, const Range& range);
     int limited(double pieces);
-    double gap_rounding() const { return kGapRounding * system.problem().beam.length; }
+    double gap_rounding() const { return kRounding * system.problem().beam.length; }
 
     System& system;
     long coarse = 0;  // steps that need more than kPieceLimit subintervals

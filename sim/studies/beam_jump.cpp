@@ -2,11 +2,12 @@
 
 #include <cmath>
 
+#include "sim/base/numerics.hpp"
+
 namespace beamcam::sim {
 namespace {
 
-constexpr int kTurns = 6;       // vibration that the first turns excite has added up or decayed
-constexpr double kOpen = 1e-9;  // of the length: a gap beyond the rounding of the contact
+constexpr int kTurns = 6;  // vibration that the first turns excite has added up or decayed
 constexpr double kStep =
     1.02;  // from one speed of the search to the next: narrower intervals of jumping are passed over
 constexpr double kClose = 1e-5;  // of the speed
@@ -18,7 +19,7 @@ bool leaves_cam(Problem problem, double speed, const Progress& progress) {
     Request request;
     request.end_time = kTurns * cam_period(problem);
     request.extrema = {*channel_named("gap")};
-    return simulate(problem, request, progress).extrema.front().max > kOpen * problem.beam.length;
+    return simulate(problem, request, progress).extrema.front().max > kNegligible * problem.beam.length;
 }
 
 }  // namespace

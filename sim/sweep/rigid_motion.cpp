@@ -9,7 +9,6 @@
 
 namespace beamcam::sim {
 
-constexpr double kOpeningDepth = 1e-13;     // [rad] below the surface while the gap opens: rounding
 constexpr double kShortestAdvance = 1e-15;  // [s]
 constexpr double kRigidAccuracy = 1e-13;    // [rad] error of a settled motion: some hundred rounding errors
 constexpr long kPlacesPerReport = 16384;    // comparisons with the surface between two calls of `progress`
@@ -65,7 +64,7 @@ std::optional<double> RigidMotion::first_touch(double h) {
     while (t < h) {
         report();
         auto [g, v] = gap(t);
-        if ((touched_ && t == 0) || (g < 0 && v > 0 && g > -kOpeningDepth)) g = std::max(g, 0.0);
+        if ((touched_ && t == 0) || (g < 0 && v > 0 && g > -kLongRounding)) g = std::max(g, 0.0);
         if (g < 0 || (g == 0 && !(v > 0))) return t;
         if (const auto certain = above.certain_time(g, v))
             return falling_zero(gap, t, {g, v}, t + *certain, h, kAngleRounding);

@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-namespace beamcam::sim {
+#include "sim/base/numerics.hpp"
 
-constexpr double kWholeTurn = 1e-12;  // of the number of turns: rounding of a time in turns
+namespace beamcam::sim {
 
 SampleSpan sample_span(const Problem& problem, const Sampling& sampling) {
     SampleSpan span;
     span.period = cam_period(problem);
     const auto turns = [&](const CamSpan& s) {
-        return static_cast<long>(std::ceil(s.time ? *s.time / span.period * (1 - kWholeTurn) : s.turns));
+        return static_cast<long>(std::ceil(s.time ? *s.time / span.period * (1 - kLongRounding) : s.turns));
     };
     span.from = std::max(0L, turns(sampling.transient));
     span.to = span.from + std::max(1L, turns(sampling.keep));
