@@ -62,7 +62,7 @@ void MechanismLegend::draw(Canvas& canvas, const MechanismView& at) const {
     names(canvas);
 }
 
-// Its length is round, near a seventh of the view, but not shorter than its text.
+// Its length is round, near a seventh of the view, but hardly shorter than its text.
 void MechanismLegend::scale_bar(Canvas& canvas, const MechanismView& at) const {
     const TextStyle style{.size = at_.context.look.letters.words,
                           .color = at_.palette.muted,
@@ -70,7 +70,7 @@ void MechanismLegend::scale_bar(Canvas& canvas, const MechanismView& at) const {
                           .halo = at_.palette.paper};
     const double scale = at.look.camera.scale, u = at_.unit;
     double length = round_down_125(0.17 * at.box.w / scale);  // [m]
-    while (canvas.measure(quantity(length, "m"), style).w > length * scale) length = round_up_125(1.01 * length);
+    while (canvas.measure(quantity(length, "m"), style).w > 1.1 * length * scale) length = round_up_125(1.01 * length);
     const std::string text = quantity(length, "m");
     const double w = length * scale;
     const double middle = at_.box.right() - 5 * u - std::max(w, canvas.measure(text, style).w) / 2;

@@ -36,7 +36,7 @@ void MechanismView::place_camera() {
         const double label = !names ? 0 : (box.h > 200 * unit ? 38 : 28) * unit;
         const double scale_bar = has_scale_bar() ? context.look.letters.words : 0;
         look.camera = extent.camera({box.x, box.y + label, box.w, box.h - label - scale_bar}, unit);
-        look.depth = std::max(beam_depth(problem().beam), 7 * unit / look.camera.scale);
+        look.depth = std::max(beam_depth(problem().beam), 10 * unit / look.camera.scale);
     };
     as_deep_as(context.extent);
     if (look.depth > beam_depth(problem().beam)) as_deep_as(view_extent_of(context, look.depth));

@@ -6,6 +6,7 @@
 #include <cctype>
 
 #include "output/files/numbers.hpp"
+#include "render/draw/fonts.hpp"
 #include "render/plot/user_text.hpp"
 #include "scenes/scene/files.hpp"
 
@@ -122,6 +123,8 @@ void check_picture(ObjectReader& r, Picture& picture) {
     if (const auto paper = picture.view.paper;
         paper && render::contrast(render::palette(picture.view.theme).ink, render::rgb(*paper)) < 3)
         r.warn("background", " makes the text hardly readable; choose another \"theme\"");
+    if (!r.has("lang") && render::needs_cjk(r.context().scene.title))
+        r.warn("lang", ": the title is not English, but the other words are; set \"zh\" or \"en\"");
     if (picture.comparison == render::Comparison::ghosts && !r.has("compare"))
         r.diagnostics().warning(
             r.node()->place,

@@ -274,6 +274,9 @@ TEST(Reader, PointlessScenesAreWarnedAboutAndRead) {
     ASSERT_EQ(reading.messages.size(), 1u);
     EXPECT_FALSE(reading.messages[0].fatal);
     EXPECT_THAT(reading.report(), HasSubstr("scene.json:1:20: warning: cam.centre"));
+    const std::string chinese = R"({"title": "柔性梁", "outputs": [{"type": "still", "at": 0, "file": "a.png")";
+    EXPECT_THAT(read(chinese + "}]}").report(), HasSubstr("warning: outputs.0.lang: the title is not English"));
+    EXPECT_EQ(read(chinese + R"(, "lang": "zh"}]})").report(), "");
 }
 
 TEST(Reader, WhatTheVersionCannotDoIsRejectedByName) {
