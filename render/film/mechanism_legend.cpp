@@ -63,7 +63,7 @@ void MechanismLegend::draw(Canvas& canvas, const MechanismView& at) const {
 }
 
 // Its length is round, near a seventh of the view, but hardly shorter than its text.
-void MechanismLegend::scale_bar(Canvas& canvas, const MechanismView& at) const {
+void MechanismLegend::scale_bar(Canvas& canvas, const MechanismView& at, const Projection* view) const {
     const TextStyle style{.size = at_.context.look.letters.words,
                           .color = at_.palette.muted,
                           .align = HAlign::centre,
@@ -74,10 +74,11 @@ void MechanismLegend::scale_bar(Canvas& canvas, const MechanismView& at) const {
     const std::string text = quantity(length, "m");
     const double w = length * scale;
     const double middle = at_.box.right() - 5 * u - std::max(w, canvas.measure(text, style).w) / 2;
-    const double x = middle - w / 2, y = at_.box.bottom() - 8 * u;
-    canvas.polyline(std::array<Vec2, 4>{{{x, y - 5 * u}, {x, y}, {x + w, y}, {x + w, y - 5 * u}}});
+    const double x = middle - w / 2, y = view ? at.px({0, 0}).y : at_.box.bottom() - 8 * u;
+    const auto on = [&](double across, double down) { return at.seen({across, down}, view); };
+    canvas.polyline(std::array{on(x, y - 5 * u), on(x, y), on(x + w, y), on(x + w, y - 5 * u)});
     canvas.stroke({at_.palette.muted, 1.6 * u, {}, Cap::butt});
-    canvas.text({middle, y - 9 * u}, text, style);
+    canvas.text(on(middle, y) - Vec2{0, (view ? 15 : 9) * u}, text, style);
 }
 
 void MechanismLegend::names(Canvas& canvas) const {

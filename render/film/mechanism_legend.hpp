@@ -10,11 +10,14 @@
 namespace beamcam::render {
 
 struct MechanismView;
+struct Projection;
 
 class MechanismLegend {
   public:
     explicit MechanismLegend(const MechanismView& at);  // `at` must outlive it
     void draw(Canvas& canvas, const MechanismView& at) const;
+    // `view`: of a perspective, in which the bar lies on the horizontal through O in the plane of the motion.
+    void scale_bar(Canvas& canvas, const MechanismView& at, const Projection* view = nullptr) const;
     bool cuts_names() const { return cuts_names_; }
 
   private:
@@ -26,7 +29,6 @@ class MechanismLegend {
         std::vector<double> dash = {};
     };
     void fit_names(const Canvas& canvas);
-    void scale_bar(Canvas& canvas, const MechanismView& at) const;
     void names(Canvas& canvas) const;
 
     const MechanismView& at_;

@@ -123,6 +123,7 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
     if (s.view) {
         const Vec2 o = at.px({0, 0});
         canvas.clip(at.box, [&] { canvas.line(s.on(o), s.on({at.box.right(), o.y}), horizontal_pen(at)); });
+        if (at.labelled()) legend_.scale_bar(canvas, at, s.view);
     }
     draw_undeflected(s);
     draw_angle(s);

@@ -134,11 +134,9 @@ std::vector<std::string> parameter_pieces(const sim::Problem& problem, Lang lang
         }
         if (problem.cam->speed != 0) out.push_back(equation("ω", turning_speed(problem.cam->speed, unit)));
     }
-    if (problem.beam.model == sim::ModelKind::rigid)
-        out.push_back(phrase(lang, "rigid beam"));
-    else
-        out.push_back(phrase(lang, sim::name(problem.beam.model)) + ", " +
-                      phrase(lang, problem.beam.modes == 1 ? "{} mode" : "{} modes", problem.beam.modes));
+    const bool rigid = problem.beam.model == sim::ModelKind::rigid;
+    out.push_back(phrase(lang, rigid ? "rigid beam" : sim::name(problem.beam.model)));
+    if (!rigid) out.push_back(phrase(lang, problem.beam.modes == 1 ? "{} mode" : "{} modes", problem.beam.modes));
     if (std::string damping = damping_piece(problem.beam); !damping.empty()) out.push_back(std::move(damping));
     if (problem.hub.radius != 0) out.push_back(equation("a", quantity(problem.hub.radius, "m")));
     if (problem.hub.inertia != 0)
