@@ -135,7 +135,7 @@ std::string energy_at_apex(double touch, double apex, const sim::Problem& proble
 // The mechanism, the contact in micrometres, and the force of the collision.
 LayoutNode impact_layout(bool has_force, const Size& size, double text_scale) {
     using enum LayoutNode::Kind;
-    const LayoutNode near = leaf({.kind = PanelKind::mechanism}, 2.6);
+    const LayoutNode near = leaf({.kind = PanelKind::mechanism}, 1.9);
     if (!has_force) return near;
     const LayoutNode contact = leaf({.kind = PanelKind::close_up}),
                      force = leaf({.kind = PanelKind::strip,
