@@ -1,7 +1,7 @@
 // The data of a plot: bands, curves, dots and events.
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -108,28 +108,24 @@ void Plot::draw_dots_and_events(Painter& on, const Interval& part) const {
     }
 }
 
-// Intervals of the past, or above the curves their names: each once, in the widest of its intervals in the plot, if it
-// has room there, as soon as all of the name is past.
+// Intervals of the past, or above the curves their names: each once, in the first of its intervals that has room for it
+// in the plot, as soon as all of the name is past.
 void Plot::draw_spans(Painter& on, const Interval& part, bool names) const {
     TextStyle text = style_->tick_numbers();
     text.align = HAlign::centre;
-    std::map<std::string, double> widest;  // of each name
-    const auto width = [&](const Span& span) {
-        const double left = along_x(span.from), right = along_x(span.to);
-        return left >= box_.x && right <= box_.right() ? right - left : 0;
-    };
-    for (const Span& span : panel_->spans) widest[span.label] = std::max(widest[span.label], width(span));
+    std::set<std::string> placed;
     for (const Span& span : panel_->spans) {
-        const double from = along_x(std::max(span.from, part.from)) + shift_.x,
-                     to = along_x(std::min(span.to, part.to)) + shift_.x;
+        const double left = along_x(span.from), right = along_x(span.to), wide = on.measure(span.label, text).w;
+        const bool has_name =
+            left >= box_.x && right <= box_.right() && wide < right - left && placed.insert(span.label).second;
+        const double from = std::max(left, along_x(part.from)) + shift_.x,
+                     to = std::min(right, along_x(part.to)) + shift_.x, middle = (left + right) / 2 + shift_.x;
         if (!part.past || !(from < to)) continue;
         text.halo = mix(style_->palette->paper, span.color.faded(1 / std::max(span.color.a, 1e-9)), span.color.a);
         if (!names) {
             on.rectangle({from, box_.y + shift_.y, to - from, box_.h});
             on.fill(span.color);
-        } else if (const double wide = on.measure(span.label, text).w,
-                   middle = along_x(0.5 * (span.from + span.to)) + shift_.x;
-                   width(span) == widest[span.label] && wide < width(span) && middle + wide / 2 <= to)
+        } else if (has_name && middle + wide / 2 <= to)
             on.text({middle, box_.y + shift_.y + 0.9 * style_->numbers}, span.label, text);
     }
 }

@@ -18,9 +18,9 @@ std::string error_label(const sim::Accuracy& a, Lang lang) { return phrase(lang,
 // A logarithmic axis has no zero: an error below that of the reference is drawn at the latter.
 double visible(double error, const sim::Accuracy& a) { return std::max(error, a.reference_error); }
 
-// The points of one method, at the median of the repeated timings.
+// The points of one method in the order of its tolerances, at the median of the repeated timings.
 void add_method(Panel& panel, const sim::Accuracy& a, sim::Method method, int look) {
-    Series points{.label = sim::name(method), .look = look, .line = false, .every_point = true};
+    Series points{.label = sim::name(method), .look = look, .every_point = true};
     for (const sim::WorkRow& row : a.work) {
         if (row.method != method || !row.error || row.time.repeats == 0) continue;
         points.add(1e3 * row.time.median, visible(*row.error, a));
