@@ -133,7 +133,7 @@ Palette Palette::without_paper() const {
     ink_of(out.grid, ink);
     ink_of(out.motion_faint, motion);
     ink_of(out.contact_faint, contact);
-    out.muted = mix(muted, ink, 0.6);  // small letters are thinner than their outlines
+    out.muted = ink;  // small letters are thinner than their outlines
     return out;
 }
 

@@ -53,6 +53,7 @@ class CloseUpPanel final : public FilmPanel {
                 canvas, {whole + whose + name, brief + whose + name, brief + name, has_cam ? plot_.y().name() : brief},
                 bold, room));
         canvas.rectangle(area_);
+        canvas.fill_keeping_path(context_.look.palette.paper);  // of its own in a transparent picture
         canvas.fill(close_up_background(context_.look.palette));
         if (!has_cam) return;
         plot_.draw_y_axis(canvas);
