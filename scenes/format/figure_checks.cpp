@@ -134,10 +134,13 @@ void check_comparison(ObjectReader& r, const SeriesKeys& series) {
         r.reject("compare", ": all motions are the same; a rigid beam has no modes");
 }
 
-bool bends(const Scene& scene, const SeriesKeys& series) {
-    const auto flexible = [](const sim::Problem& problem) { return problem.beam.model != sim::ModelKind::rigid; };
-    return series.compare.empty() ? flexible(scene.problem)
-                                  : std::ranges::any_of(series.compare, flexible, &Compared::problem);
+bool some(const Scene& scene, const SeriesKeys& series, bool (*what)(const sim::Problem&)) {
+    return series.compare.empty() ? what(scene.problem) : std::ranges::any_of(series.compare, what, &Compared::problem);
+}
+bool bends(const sim::Problem& problem) { return problem.beam.model != sim::ModelKind::rigid; }
+bool turns(const sim::Problem& problem) {
+    const auto* drive = std::get_if<sim::ConstantSpeed>(&problem.hub.drive);
+    return !drive || drive->speed != 0;
 }
 
 void check_series(ObjectReader& r, FigureOutput& figure) {
@@ -153,12 +156,16 @@ void check_series(ObjectReader& r, FigureOutput& figure) {
     check_markup(r, "x_label", series.x_label);
     check_residuals(r, series);
     check_comparison(r, series);
-    const auto is_deflection = [](const SeriesPanel& panel) {
-        return panel.channels == std::vector{sim::Channel{sim::ChannelKind::tip_deflection}};
+    const auto shows_only = [&](sim::ChannelKind kind) {
+        return !series.panels.empty() && std::ranges::all_of(series.panels, [&](const SeriesPanel& panel) {
+            return panel.channels == std::vector{sim::Channel{kind}};
+        });
     };
-    if (!series.panels.empty() && std::ranges::all_of(series.panels, is_deflection) &&
-        !bends(r.context().scene, series))
+    const Scene& scene = r.context().scene;
+    if (shows_only(sim::ChannelKind::tip_deflection) && !some(scene, series, bends))
         r.reject_object("channels", ": tip_deflection: a rigid beam does not bend; choose another beam.model");
+    if (shows_only(sim::ChannelKind::theta) && !some(scene, series, turns))
+        r.reject_object("channels", ": the hub is held at its initial angle; choose another hub.drive");
     warn_of_undrawn_data(r, series);
 }
 

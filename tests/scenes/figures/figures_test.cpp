@@ -396,6 +396,9 @@ TEST(Figures, WithoutContentAreRejected) {
     const auto report = [](const std::string& keys) { return testing::read("{" + keys + "}]}").report(); };
     const std::string rigid = R"("beam": {"model": "rigid"}, "outputs": [{"type": "figure", "figure": )";
     EXPECT_THAT(report(rigid + "\"tip-vibration\""), HasSubstr("a rigid beam does not bend"));
+    const std::string held =
+        R"("hub": {"drive": {"type": "prescribed", "law": "constant", "speed": 0}}, "outputs": [{"type": "figure", "figure": )";
+    EXPECT_THAT(report(held + "\"angle\""), HasSubstr("the hub is held"));
     EXPECT_EQ(report(rigid + R"("series", "channels": ["theta", "tip_deflection"])"), "");  // one of them moves
     EXPECT_THAT(report(rigid + "\"apex-modes\""), HasSubstr("a rigid beam has no modes"));
     EXPECT_THAT(report(rigid + R"("series", "panels": [{"channels": []}])"), HasSubstr("channels"));
