@@ -18,8 +18,10 @@ using render::Lang, render::LayoutNode, render::PanelKind, render::PanelSpec, re
 using sim::ChannelKind;
 
 constexpr double kShown = 2.5, kFade = 0.2;  // of captions [s of the film]
-constexpr double kNear = 1.6, kMove = 1.2;   // zoom at the contact, at which the tip remains visible; duration of the
-                                             // camera's movement [s of the film]
+constexpr double kNear = 1.4, kMove = 1.2;   // zoom at the contact; duration of the camera's movement [s of the film]
+
+// In other pictures the whole beam needs the width.
+bool is_wide(const Size& size) { return size.width >= 1.4 * size.height; }
 
 Instant at_time(double t) { return {.kind = Instant::Kind::time, .t = t}; }
 
@@ -142,7 +144,7 @@ LayoutNode impact_layout(bool has_force, const Size& size, double text_scale) {
                                    .channels = {{ChannelKind::contact_force, 0}},
                                    .by_collision = true});
     const bool small = size.height < 540 || text_scale > 1.2;  // without room for four panels
-    if (size.width < 1.4 * size.height) return group(rows, {near, contact, force});
+    if (!is_wide(size)) return group(rows, {near, contact, force});
     if (small) return group(columns, {leaf({.kind = PanelKind::mechanism}, 1.55), force});
     return group(rows, {group(columns, {near, contact}, 1.9), force});
 }
@@ -202,9 +204,15 @@ PictureOutput told_impact(PictureOutput film, const Scene& scene, const sim::Res
         tell(film, *span.to, energy_at_apex(touch, *span.to, scene.problem, find, film.view.lang), kHold);
     else if (!c.t_end)
         span.hold = kHold;
-    film.view.keyframes = {
-        {.at = at_time(touch), .zoom = kNear, .follow = render::Anchor{render::Anchor::Kind::contact}, .over = kMove},
-        {.at = at_time(liftoff + 0.01 * (*span.to - liftoff)), .zoom = 1, .follow = render::Anchor{}, .over = kMove}};
+    if (is_wide(film.size))
+        film.view.keyframes = {{.at = at_time(touch),
+                                .zoom = kNear,
+                                .follow = render::Anchor{render::Anchor::Kind::contact},
+                                .over = kMove},
+                               {.at = at_time(liftoff + 0.01 * (*span.to - liftoff)),
+                                .zoom = 1,
+                                .follow = render::Anchor{},
+                                .over = kMove}};
     if (!film.layout) film.layout = impact_layout(c.force_peak.has_value(), film.size, film.view.text_scale);
     return film;
 }
