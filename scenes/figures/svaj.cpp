@@ -47,7 +47,9 @@ std::optional<std::pair<double, double>> last_turn(const Scene& scene) {
 // The beam's curves over the turn from 0° to 360°.
 void add_beam(const sim::Problem& problem, const sim::Table& table, double angle_factor, Lang lang, Panel& angle,
               Panel& velocity) {
-    Series theta{.label = phrase(lang, "hub of the bent beam"), .look = 1, .weight = 0.8}, rate = theta;
+    const bool bends = problem.beam.model != sim::ModelKind::rigid;
+    Series theta{.label = phrase(lang, bends ? "hub of the bent beam" : "beam"), .look = 1, .weight = 0.8},
+        rate = theta;
     const auto &psi = column(table, ChannelKind::cam_angle), &at = column(table, ChannelKind::theta),
                &speed = column(table, ChannelKind::theta_dot);
     const double turn = std::round(-std::max(psi.front(), psi.back()) / sim::kFullTurn);
