@@ -124,14 +124,16 @@ double ContactStepEnd::solve_to(double end, Ending ending) {
         const double dt = to_event(h, ending);
         if (!std::isfinite(dt)) return kNoSolution;
         if (std::fabs(dt) < kLongRounding * h + kLeastShift) return error;
-        if (std::fabs(dt) >= closest) return ending == Ending::friction ? kNoSolution : error;
+        // Far from the event the step shows one that is not there.
+        const bool near = std::fabs(dt) < kCarried * h;
+        if (std::fabs(dt) >= closest) return ending == Ending::friction || !near ? kNoSolution : error;
         if (ending == Ending::clamp && std::fabs(dt) < kOnKink * h) return error;
-        if (ending == Ending::friction && std::fabs(dt) < kCarried * h) {
+        if (ending == Ending::friction && near) {
             carry = dt;
             return error;
         }
         // So near that the force in between has no effect: the state is carried over.
-        if (ending == Ending::release && std::fabs(dt) < kCarried * h &&
+        if (ending == Ending::release && near &&
             law_.at(contact_.end.radius).elastic(std::fabs(contact_.end.gap)) * std::fabs(dt) *
                     contact_.mode_rate_per_impulse <
                 kCarriedKick * step_.scale_modes) {

@@ -2,14 +2,11 @@
 
 #include <cmath>
 
-#include "sim/base/numerics.hpp"
-
 namespace beamcam::sim {
 namespace {
 
-constexpr int kTurns = 6;  // vibration that the first turns excite has added up or decayed
-constexpr double kStep =
-    1.02;  // from one speed of the search to the next: narrower intervals of jumping are passed over
+constexpr int kTurns = 6;        // vibration that the first turns excite has added up or decayed
+constexpr double kStep = 1.02;   // from one speed of the search to the next: narrower intervals of jumps are not seen
 constexpr double kClose = 1e-5;  // of the speed
 
 bool leaves_cam(Problem problem, double speed, const Progress& progress) {
@@ -18,8 +15,8 @@ bool leaves_cam(Problem problem, double speed, const Progress& progress) {
     problem.initial.shape = InitialShape::resting;
     Request request;
     request.end_time = kTurns * cam_period(problem);
-    request.extrema = {*channel_named("gap")};
-    return simulate(problem, request, progress).extrema.front().max > kNegligible * problem.beam.length;
+    const std::vector<Impact> impacts = simulate(problem, request, progress).impacts;
+    return impacts.size() != 1 || impacts.front().t_end;
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ TEST(CamCommand, DrawsTheOutlineToScale) {
 // The leaf of CAMS.md; the rigid one jumps as the lever.
 TEST(CamCommand, FindsTheJumpSpeedOfTheBeam) {
     const Folder folder;
-    const auto jump = [&](const char* model) {
+    const auto jump = [&](const std::string& model) {
         const Finished found =
             shell(folder, std::string("$BEAMCAM cam '") + BEAMCAM_TEST_DIR +
                               "/../scenes/valve-lever.json' --beam --json --set beam.model=" + model);
@@ -94,6 +94,8 @@ TEST(CamCommand, FindsTheJumpSpeedOfTheBeam) {
     const auto flexible = jump("first-order"), rigid = jump("rigid");
     EXPECT_NEAR(flexible["beam_jump_speed"].get<double>() * 30 / std::numbers::pi, 1369, 1);
     EXPECT_NEAR(rigid["beam_jump_speed"].get<double>() / rigid["jump_speed"].get<double>(), 1, 1e-4);
+    const auto impulses = jump("rigid --set contact.model=restitution");
+    EXPECT_NEAR(impulses["beam_jump_speed"].get<double>() / impulses["jump_speed"].get<double>(), 1, 2e-5);
 }
 
 TEST(CamCommand, RefusesWhatItCannotDo) {

@@ -88,6 +88,32 @@ TEST(ProfileMotion, ALeverThatHardlyJumpsLandsAgain) {
         }
 }
 
+// A stiff contact follows the cam in steps much longer than its vibration, which each jump of ρ excites.
+TEST(ProfileMotion, AStiffContactFollowsTheCamOverJumpsOfTheCurvature) {
+    Problem arcs = with_profile(tangent_arcs());
+    arcs.cam->speed = 6;
+    arcs.hub.spring = {1, -60 * kDegree, 0.01};
+    Problem law = follower(ContactModel::compliant, 4);
+    for (LawSegment& segment : std::get<LawProfile>(*law.cam->profile).segments)
+        if (segment.law != MotionLaw::dwell) segment.law = MotionLaw::harmonic;
+    for (Problem p : {arcs, law})
+        for (const double stiffness : {1e9, 1e12}) {
+            p.beam.model = ModelKind::rigid;
+            p.initial.shape = InitialShape::resting;
+            p.contact.stiffness = stiffness;
+            set_tolerance(p, 1e-8);
+            const double end = 2 * std::numbers::pi / p.cam->speed;
+            const auto forces = [&](Method method) {
+                p.solver.method = method;
+                return extremum(p, "contact_force", end);
+            };
+            const Extremum own = forces(Method::automatic), other = forces(Method::rk8);
+            EXPECT_GT(other.min, 0) << stiffness;
+            EXPECT_NEAR(own.min, other.min, 1e-4 * other.max) << stiffness;
+            EXPECT_NEAR(own.max, other.max, 1e-4 * other.max) << stiffness;
+        }
+}
+
 TEST(ProfileMotion, ADiscAsArcOrPointsMovesTheBeamAlike) {
     Problem disc;
     disc.beam.modes = 3;
