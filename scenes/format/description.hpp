@@ -60,8 +60,9 @@ struct KeyRow {
 };
 std::vector<KeyRow> key_rows();
 bool is_of_type(const KeyRow& row, const std::string& type);  // a key of outputs, drives … of this type
-// "; its place is "cam.speed"": where a key that an object does not have is a key, the three outermost places. `path`:
-// where it was found, "outputs.0.unit". `inside`: only within that object, which has this `type`, or none.
+// "; its place is "cam.speed"": where a key that an object does not have is a key, the three outermost places; or
+// "; it goes with type=torque" if it is a key of that object with other tags. `path`: where it was found,
+// "outputs.0.unit". `inside`: only within that object, which has this `type`, or none.
 std::string place_of_key(const std::string& path, const std::string& type, bool inside);
 std::string range_text(const DescribedKey& key);    // "> 0", "1 … 2"; empty: any
 std::string default_text(const DescribedKey& key);  // JSON; empty: none

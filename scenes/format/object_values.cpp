@@ -44,7 +44,9 @@ std::optional<double> ObjectReader::number_value(const Node& node, std::string_v
     const QuantityText read = parse_quantity(node.text, &dimension);
     if (!read.quantity)
         reject_value(node, key, ": {}{}", read.problem,
-                     unit == "1" ? "; write a number" : fmt::format("; write for example \"1.5 {}\"", unit));
+                     unit == "1"                   ? "; write a number"
+                     : read.problem.ends_with('?') ? ""
+                                                   : fmt::format("; write for example \"1.5 {}\"", unit));
     else if (same(read.quantity->dimension, dimension))
         return read.quantity->value;
     else

@@ -89,7 +89,8 @@ std::string place_of_key(const std::string& path, const std::string& type, bool 
     for (const KeyRow& row : key_rows()) {
         const bool within = row.path.starts_with(object) && row.path.size() > object.size() + key.size();
         const bool other_type = !type.empty() && !is_of_type(row, type);
-        if (row.path == object + key || !("." + row.path).ends_with("." + key)) continue;
+        if (row.path == object + key) return "; it goes with " + row.when;
+        if (!("." + row.path).ends_with("." + key)) continue;
         if (inside && (!within || other_type)) continue;
         if (std::ranges::find(places, row.path) == places.end()) places.push_back(row.path);
     }

@@ -1,17 +1,20 @@
 // A system of ordinary differential equations, and the failures of its integration.
 #pragma once
 
+#include <limits>
 #include <stdexcept>
 
 namespace beamcam::sim {
 
 // y′ = f(t, y). Error control sees the first `controlled` components; the rest (work and impulse integrals) never
-// change a step, unless there is nothing else to compute.
+// change a step, unless the motion may be given by the cam or the hub alone. `longest_step`: f may change in it unseen
+// by a method that evaluates it once in a step [s].
 struct Ode {
     virtual ~Ode() = default;
     virtual void rhs(double t, const double* y, double* dy) = 0;
     int size = 0;
     int controlled = 0;
+    double longest_step = std::numeric_limits<double>::infinity();
 };
 
 struct StepFailure : std::runtime_error {

@@ -19,6 +19,10 @@ namespace {
 // Step-size factors of the published code of order 8: safety, and the least and most from one step to the next.
 constexpr double kRk8Safety = 0.9, kRk8Shrink = 1.0 / 3.0, kRk8Growth = 6.0;
 
+// Of the time. Steps become so short where the equations jump: one a few times as long passes the jump, whatever its
+// error, but not two in a row.
+constexpr double kShortestRk8 = 4e-16;
+
 using namespace dop853;
 
 constexpr std::size_t kDenseRows = 7;
@@ -89,13 +93,18 @@ class Rk8 final : public Integrator, private Segment {
             double h = next_;
             const bool to_stop = t0 + 1.01 * h >= stop_;
             if (to_stop) h = stop_ - t0;
-            if (!(std::fabs(h) > 4e-16 * std::max(std::fabs(t0), 1e-300)) || !std::isfinite(h))
-                throw StepFailure(step_failure_reason(std::isfinite(error)));
+            const double shortest = kShortestRk8 * std::max(std::fabs(t0), 1e-300);
+            const bool jumps = !(h > shortest);
+            if (!std::isfinite(h) || (jumps && jumped_)) throw StepFailure(step_failure_reason(std::isfinite(error)));
+            if (jumps) h = kRk8Growth * shortest;
             error = advance(h);
-            if (error <= 1) {
+            if (jumps && !std::isfinite(error)) throw StepFailure(step_failure_reason(false));
+            if (error <= 1 || jumps) {
+                jumped_ = jumps;
                 const double factor =
                     error == 0 ? kRk8Growth : std::clamp(kRk8Safety * std::pow(error, -0.125), kRk8Shrink, kRk8Growth);
                 if (!to_stop || h * factor < next_) next_ = h * (rejected ? std::min(factor, 1.0) : factor);
+                if (jumps) next_ = h;
                 break;
             }
             reject(h, error);
@@ -202,7 +211,7 @@ class Rk8 final : public Integrator, private Segment {
     std::array<std::vector<double>, kAllStages> k_;
     std::vector<double> y_, end_, work_, dense_;
     double next_ = 0;
-    bool dense_built_ = false;
+    bool dense_built_ = false, jumped_ = false;
 };
 
 }  // namespace

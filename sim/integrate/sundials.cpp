@@ -188,6 +188,8 @@ class Cvode final : public Integrator, private Segment {
         check(CVodeWFtolerances(memory_.get(), &Callbacks::weights), "the tolerances");
         check(CVodeSetMaxNumSteps(memory_.get(), 1000000), "the start");
         check(CVodeSetMaxConvFails(memory_.get(), kMostFailures), "the start");
+        if (std::isfinite(call_.ode.longest_step))
+            check(CVodeSetMaxStep(memory_.get(), call_.ode.longest_step), "the longest step");
     }
 
     void keep_polynomial() {

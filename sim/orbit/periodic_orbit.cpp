@@ -184,7 +184,8 @@ bool same_orbit(const PeriodicOrbit& a, const PeriodicOrbit& b) {
 }
 
 std::optional<std::string> orbit_refusal(const Problem& problem) {
-    if (!problem.cam || problem.cam->speed == 0) return "periodic orbits need a cam that turns: set cam.speed";
+    if (!problem.cam) return "periodic orbits need a cam";
+    if (problem.cam->speed == 0) return "periodic orbits need a cam that turns: set cam.speed";
     if (!is_independent_of_time(problem.hub.drive))
         return "periodic orbits need a hub.drive that does not depend on time: free, or a constant torque";
     return std::nullopt;

@@ -89,6 +89,13 @@ std::vector<std::string> assumptions(const Problem& problem, bool has_stiffness,
     }
     const bool needs_stiffness = problem.cam && problem.contact.model == ContactModel::compliant;
     if (needs_stiffness && !has_stiffness && (own_beam || own_cam)) out.push_back(about_stiffness(problem));
+    const ModelKind model = problem.beam.model;
+    const bool has_shapes = model != ModelKind::rigid && model != ModelKind::exact;
+    const bool torque_on_hub = problem.hub.spring || !std::holds_alternative<FreeDrive>(problem.hub.drive);
+    if (has_shapes && torque_on_hub && resolved_basis(problem) == Basis::hub_beam)
+        out.push_back(
+            "beam.basis: hub-beam shapes have only the moment of the hub's inertia at the root, so deflections under "
+            "the torque on the hub converge slowly with beam.modes; \"cantilever\" needs few shapes");
     const auto* torque = std::get_if<TorqueTable>(&problem.hub.drive);
     const auto* angle = std::get_if<AngleTable>(&problem.hub.drive);
     if (const double last = torque ? torque->t.back() : angle ? angle->t.back() : end_time; last < end_time)

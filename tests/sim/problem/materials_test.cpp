@@ -174,9 +174,11 @@ TEST(Assumptions, AreSaidOfABeamOfOnesOwn) {
     EXPECT_TRUE(assumptions(cam, false, 1).empty());
     Problem driven;
     driven.hub.drive = TorqueTable{{0, 0.5}, {0, 3}};
-    EXPECT_TRUE(assumptions(driven, true, 0.5).empty());
-    EXPECT_EQ(assumptions(driven, true, 1).front(),
+    EXPECT_EQ(assumptions(driven, true, 0.5).size(), 1u);  // its basis converges slowly
+    EXPECT_EQ(assumptions(driven, true, 1).back(),
               "hub.drive: after the table's last time, 0.5 s, the torque stays constant");
+    driven.beam.basis = Basis::cantilever;
+    EXPECT_TRUE(assumptions(driven, true, 0.5).empty());
 }
 
 // A cantilever of steel under its weight: v′(L) = q L³/(6 E I).

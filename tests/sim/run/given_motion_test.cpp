@@ -119,6 +119,39 @@ TEST(GivenMotion, HasTheImpulsesAndTheBalanceOfTheGivenForces) {
             }
 }
 
+// A rigid beam that rests on a round cam does not move while a torque changes the force between them.
+Problem resting_under(double share, double friction) {
+    Problem p;
+    p.beam.model = ModelKind::rigid;
+    p.cam->eccentricity = 0;
+    p.cam->speed = -3;
+    p.contact.model = ContactModel::restitution;
+    p.contact.friction = CoulombFriction{friction, 0.01};
+    p.initial.shape = InitialShape::resting;
+    const double slope = std::asin(p.cam->radius / p.cam->centre.x);
+    const double moment = 0.5 * p.beam.line_density() * p.beam.length * p.beam.length * p.gravity * std::cos(slope);
+    p.hub.drive = HarmonicTorque{share * moment, 200, 0};
+    return p;
+}
+
+TEST(GivenMotion, RestingBeamsLoseWhatTheMeanForceRubsOff) {
+    for (const Method method : {Method::automatic, Method::rk8})
+        for (const double rtol : {1e-8, 1e-11}) {
+            const auto loss = [&](double share) {
+                Problem p = resting_under(share, 0.3);
+                p.solver.method = method;
+                set_tolerance(p, rtol);
+                return series(p, "loss_friction", {0.5}).front();
+            };
+            EXPECT_NEAR(loss(0.5), loss(0), 1e-6 * loss(0)) << name(method) << rtol;
+        }
+}
+
+TEST(GivenMotion, RestingBeamsLeaveTheCamInEachPeriodOfATorqueThatLiftsThem) {
+    for (const double share : {0.999, 1.0005})
+        EXPECT_EQ(run(resting_under(share, 0), 0.5).impacts.size(), share < 1 ? 1u : 101u) << share;
+}
+
 // Without gravity nothing in a flight limits the steps.
 TEST(GivenMotion, MeetsAFastCamOnceInEachOfItsTurns) {
     for (const Method method : {Method::automatic, Method::rk8})

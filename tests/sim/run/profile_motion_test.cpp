@@ -114,6 +114,41 @@ TEST(ProfileMotion, AStiffContactFollowsTheCamOverJumpsOfTheCurvature) {
         }
 }
 
+// After thousands of turns the time does not distinguish the instants about a joint at which θ̈ jumps.
+TEST(ProfileMotion, SustainedImpulsesPassTheJointsOfArcsAtLateTimes) {
+    Problem p;
+    p.cam->profile = ArcsProfile{{{{0, 0}, 0.06895561258583952},
+                                  {{-0.060922469040389116, 0.1515623130985953}, 0.2323039581108977},
+                                  {{0.034084154496279224, 0}, 0.05342580609776099},
+                                  {{-0.060922469040389116, -0.1515623130985953}, 0.2323039581108977}}};
+    p.beam.model = ModelKind::rigid;
+    p.gravity = 0;
+    p.hub.drive = ConstantTorque{-2.0623967500964313};
+    p.contact.model = ContactModel::restitution;
+    p.contact.restitution = 0.3;
+    p.cam->phase = 0.3;
+    p.initial.shape = InitialShape::resting;
+    for (const double speed : {35.1, 41.9, 54.7}) {
+        p.cam->speed = speed;
+        const Result r = run(p, 600);
+        EXPECT_LT(r.energy_residual_max, 1e-6 * r.energy_scale) << speed;
+    }
+}
+
+// A method of few evaluations sees a short rise after a long dwell.
+TEST(ProfileMotion, EveryMethodSeesAShortRise) {
+    Problem p = follower(ContactModel::restitution, 1);
+    p.cam->profile = LawProfile{16 * kDegree,
+                                {{MotionLaw::dwell, 0, 280 * kDegree},
+                                 {MotionLaw::polynomial_4567, 0.5 * kDegree, 40 * kDegree},
+                                 {MotionLaw::polynomial_4567, -0.5 * kDegree, {}}}};
+    set_tolerance(p, 1e-8);
+    for (const Method method : {Method::automatic, Method::rk8, Method::cvode_adams, Method::cvode_bdf}) {
+        p.solver.method = method;
+        EXPECT_NEAR(extremum(p, "theta", 12).max, 16.5 * kDegree, 1e-6) << name(method);
+    }
+}
+
 TEST(ProfileMotion, ADiscAsArcOrPointsMovesTheBeamAlike) {
     Problem disc;
     disc.beam.modes = 3;
