@@ -7,8 +7,8 @@
 namespace beamcam::sim {
 
 // y′ = f(t, y). Error control sees the first `controlled` components; the rest (work and impulse integrals) never
-// change a step, unless the motion may be given by the cam or the hub alone. `longest_step`: f may change in it unseen
-// by a method that evaluates it once in a step [s].
+// change a step, unless the motion is given. `longest_step`: f may change in it unseen by a method that evaluates it
+// once in a step [s].
 struct Ode {
     virtual ~Ode() = default;
     virtual void rhs(double t, const double* y, double* dy) = 0;

@@ -41,12 +41,18 @@ System::System(const Problem& problem)
       offset_(contact_offset(problem)) {
     ledger_at = 2 * n_ + (has_bristle() ? 1 : 0);
     size = ledger_at + kLedgerSize;
-    controlled = n_ == 1 ? size : ledger_at;
+    set_phase({});
     if (problem.cam && problem.cam->profile && cam_.speed() != 0) longest_step = kLongestTurn / std::fabs(cam_.speed());
     for (int i = 0; i + 1 < n_; ++i) highest_frequency_ = std::max(highest_frequency_, model_->frequency(i));
     baumgarte_rate_ =
         n_ > 1 ? kDecayOfVibration * model_->frequency(0)
                : kDecayOfPendulum * std::sqrt(std::max(kLeastGravity, std::fabs(problem.gravity)) / model_->length());
+}
+
+// The cam gives the motion of a rigid beam that follows it.
+void System::set_phase(const Phase& phase) {
+    phase_ = phase;
+    controlled = is_given() || (n_ == 1 && phase.held) ? size : ledger_at;
 }
 
 System::System(const System& other)

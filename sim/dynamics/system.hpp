@@ -44,7 +44,7 @@ class System final : public Ode {
     explicit System(const Problem& problem);
     System(const System& other);  // shares the constant tables
 
-    void set_phase(const Phase& phase) { phase_ = phase; }
+    void set_phase(const Phase& phase);
     const Phase& phase() const { return phase_; }
     void rhs(double t, const double* y, double* dy) override;
 

@@ -339,7 +339,7 @@ TEST(Reader, MessagesOfNumbersNameTheRemedy) {
          "measured in rad: divide by the distance from the pivot"}};
     for (const auto& [scene, remedy] : cases) EXPECT_THAT(messages(read(scene)), Contains(HasSubstr(remedy)));
     EXPECT_THAT(messages(read(R"({"outputs": [{"type": "trajectory", "data": []}]})")),
-                Contains(::testing::EndsWith("its place is \"data\"")));
+                Contains(::testing::EndsWith("it goes with type=figure")));
 }
 
 TEST(Reader, KeysForWhatIsNotModelledSaySo) {
