@@ -12,7 +12,8 @@ constexpr double kAfterClock = 36, kBetweenPills = 14;  // [design px]
 constexpr double kPadding = 1.7;                        // of a pill, in sizes of its letters
 
 std::string peak_text(const FilmContext& context, double force) {
-    return context.look.translate("peak") + "\u00A0$F$\u2009=\u2009" + reading(force, context.scales.force_unit, "N");
+    return context.look.translate("collision peak") + "\u00A0$F$\u2009=\u2009" +
+           reading(force, context.scales.force_unit, "N");
 }
 
 }  // namespace
@@ -96,7 +97,7 @@ std::string ClockLine::words(const Pill& pill, int frame) const {
             break;
     }
     const double peak = peaks_->of(pill.member, context_.clock.at(frame)).y;
-    return peak > 0 ? peak_text(context_, peak) : std::string();
+    return peak >= 0.0005 * context_.scales.force_unit.factor ? peak_text(context_, peak) : std::string();
 }
 
 void ClockLine::draw(Canvas& canvas, int frame) const {

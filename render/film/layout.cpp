@@ -37,7 +37,9 @@ PictureFrame picture_frame(int width, int height, const Shown& shown) {
     PictureFrame f;
     Layout& out = f.out;
     const bool wide = is_wide(width, height);
-    const double design_pixel = wide ? std::min(width / 1920.0, height / 1080.0) : std::min(width, height) / 1080.0;
+    const double design_pixel = wide                     ? std::min(width / 1920.0, height / 1080.0)
+                                : is_tall(width, height) ? width / 720.0  // it is seen smaller
+                                                         : std::min(width, height) / 1080.0;
     out.letters = letters_of(shown.size * design_pixel);
     out.unit = shown.size * std::max(kSmallestUnit, (wide ? 1 : 1080 / 1240.0) * design_pixel);
     const double u = out.unit, w = width, h = height;
@@ -45,9 +47,9 @@ PictureFrame picture_frame(int width, int height, const Shown& shown) {
     f.top = margin * 0.8, f.bottom = h - margin * 0.7, f.right = w - margin;
 
     const bool has_title = shown.title && w >= 320 * u && h >= 300 * u,
-               has_parameters = shown.parameters && w >= 560 * u && h >= 480 * u;
+               has_parameters = shown.parameters && w >= 560 * u && h >= 500;
     const bool has_clock = shown.labels && w >= 230 * u && h >= 190 * u;
-    const bool is_large = w >= (wide ? 1200 : 860) * u && h >= 640 * u,
+    const bool is_large = w >= (wide ? 1200 : 820) * u && h >= 640 * u,
                has_scale = shown.labels && shown.moment && is_large;
     const double scale = std::max(250 * u, 14 * out.letters.words);  // width
     if (has_title) {

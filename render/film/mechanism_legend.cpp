@@ -64,21 +64,29 @@ void MechanismLegend::draw(Canvas& canvas, const MechanismView& at) const {
 
 // Its length is round, near a seventh of the view, but hardly shorter than its text.
 void MechanismLegend::scale_bar(Canvas& canvas, const MechanismView& at, const Projection* view) const {
-    const TextStyle style{.size = at_.context.look.letters.words,
-                          .color = at_.palette.muted,
-                          .align = HAlign::centre,
-                          .halo = at_.palette.paper};
+    TextStyle style{.size = at_.context.look.letters.words,
+                    .color = at_.palette.muted,
+                    .align = HAlign::centre,
+                    .halo = at_.palette.paper};
     const double scale = at.look.camera.scale, u = at_.unit;
     double length = round_down_125(0.17 * at.box.w / scale);  // [m]
     while (canvas.measure(quantity(length, "m"), style).w > 1.1 * length * scale) length = round_up_125(1.01 * length);
     const std::string text = quantity(length, "m");
     const double w = length * scale;
     const double middle = at_.box.right() - 5 * u - std::max(w, canvas.measure(text, style).w) / 2;
-    const double x = middle - w / 2, y = view ? at.px({0, 0}).y : at_.box.bottom() - 8 * u;
+    const double floor = at.px({0, 0}).y + floor_depth(at.problem(), at.look.camera, at.look.unit);
+    const double x = middle - w / 2, low = at_.box.bottom() - 8 * u, y = view ? floor : low;
     const auto on = [&](double across, double down) { return at.seen({across, down}, view); };
     canvas.polyline(std::array{on(x, y - 5 * u), on(x, y), on(x + w, y), on(x + w, y - 5 * u)});
     canvas.stroke({at_.palette.muted, 1.6 * u, {}, Cap::butt});
     canvas.text(on(middle, y) - Vec2{0, (view ? 15 : 9) * u}, text, style);
+    if (at_.member > 0 || !(at_.context.scales.largest_force > 0)) return;
+    style.align = HAlign::left;  // the name of the marks on beam and cam
+    const Vec2 left{at_.box.x + 2 * u, low};
+    for (const double k : {0, 1})
+        canvas.line(left + Vec2{k * 15 * u, -8 * u}, left + Vec2{(k + 1) * 15 * u, -8 * u},
+                    {k > 0 ? at_.palette.contact : at_.palette.ink, 6 * u, {}, Cap::butt});
+    canvas.text(left + Vec2{kNameLine * u + kBesideLine * u, 0}, at_.context.look.translate("contact so far"), style);
 }
 
 void MechanismLegend::names(Canvas& canvas) const {

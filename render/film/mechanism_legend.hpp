@@ -1,5 +1,5 @@
-// The fixed texts of a mechanism panel: the names of motions in one row above it, if there are several, and the scale
-// bar in its lower right corner.
+// The fixed texts of a mechanism panel: the names of motions in one row above it, if there are several, and in
+// its lower corners the scale bar and the name of the marks of contact.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ class MechanismLegend {
   public:
     explicit MechanismLegend(const MechanismView& at);  // `at` must outlive it
     void draw(Canvas& canvas, const MechanismView& at) const;
-    // `view`: of a perspective, in which the bar lies on the horizontal through O in the plane of the motion.
+    // `view`: of a perspective, in which the bar lies on the floor in the plane of the motion.
     void scale_bar(Canvas& canvas, const MechanismView& at, const Projection* view = nullptr) const;
     bool cuts_names() const { return cuts_names_; }
 

@@ -13,6 +13,7 @@
 #include <optional>
 #include <ranges>
 
+#include "render/draw/markup.hpp"
 #include "render/film/mechanism_labels.hpp"
 #include "render/film/panel.hpp"
 #include "render/gl/bodies.hpp"
@@ -263,6 +264,8 @@ std::string html_page(const FilmSetup& setup) {
         std::isfinite(context.scales.period) ? context.scales.period : 0, colors, cam_json(context),
         impacts_json(context), numbers_json(thinned_instants(std::move(all), length)));
     const Lang lang = setup.view.lang;
+    const std::string parameters =
+        fmt::format("{}", fmt::join(parameter_pieces(problem, lang, setup.units.speed), " · "));
     return filled(player_html(), {{"LANG", lang == Lang::en ? "en" : "zh"},
                                   {"MECHANISM", phrase(lang, "The mechanism")},
                                   {"INSTANT", phrase(lang, "Instant")},
@@ -273,6 +276,7 @@ std::string html_page(const FilmSetup& setup) {
                                   {"ARROWS", phrase(lang, "Up and Down")},
                                   {"DEFLECTION", phrase(lang, "deflection")},
                                   {"SCALE", moment_scale(context)},
+                                  {"PARAMETERS", xml(to_plain(parameters))},
                                   {"TITLE", setup.title.empty() ? "beamcam" : xml(plain_text(setup.title))},
                                   {"PAPER", hex(p.paper)},
                                   {"INK", hex(p.ink)},

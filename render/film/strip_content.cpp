@@ -170,8 +170,8 @@ static void add_data(const FilmContext& context, const PanelSpec& spec, ChartCon
         }
 }
 
-// The friction force of stick–slip friction has ±μF beside it, on which it slips. The intervals in which it sticks are
-// shaded. Returns the symbol for the heading.
+// The friction force of stick–slip friction has its bounds beside it: ±μF, on which it slips, or ±μ_s F while it
+// sticks, in shaded intervals. Returns their symbol for the heading.
 static std::string add_sticking(const FilmContext& context, const PanelSpec& spec, ChartContent& c) {
     const auto* law = std::get_if<sim::StickSlipFriction>(&context.setup->problem.contact.friction);
     const sim::Table& chart = context.setup->chart;
@@ -190,14 +190,18 @@ static std::string add_sticking(const FilmContext& context, const PanelSpec& spe
             spans.push_back({(*t)[i], (*t)[i], name, p.motion.faded(holds ? 0.13 : 0)});
         spans.back().to = (*t)[i];
     }
-    for (const double limit : {-law->coefficient, law->coefficient}) {
+    const double static_coefficient = law->static_coefficient.value_or(law->coefficient);
+    for (const double sign : {-1, 1}) {
         figure::Series curve{.color = p.muted};
         curve.faint = p.tint(p.muted, 0.25);
         curve.dash = FilmContext::dash_of(1);
-        for (std::size_t i = 0; i < t->size(); ++i) curve.add((*t)[i], limit * (*force)[i]);
+        for (std::size_t i = 0; i < t->size(); ++i) {
+            const bool holds = sticks(context.setup->problem, (*force)[i], (*friction)[i]);
+            curve.add((*t)[i], sign * (holds ? static_coefficient : law->coefficient) * (*force)[i]);
+        }
         c.panel.series.push_back(std::move(curve));
     }
-    return ", " + colored("±$μF$", p.muted);
+    return ", " + colored(static_coefficient == law->coefficient ? "±$μF$" : "±$μF$ or ±$μ$_{s}$F$", p.muted);
 }
 
 ChartContent blank_content(const FilmContext& context, const PanelSpec& spec, int member) {
@@ -271,7 +275,7 @@ ChartContent strip_content(const FilmContext& context, const PanelSpec& spec) {
     }
     if (const std::string limit = add_sticking(context, spec, c); !limit.empty())
         symbols = colored(symbols, readable(p, color_of(c.panel.series.front()))) + limit;
-    if (shows_peaks(spec)) c.peak = context.look.translate("peak") + "\u00A0";
+    if (shows_peaks(spec)) c.peak = context.look.translate("collision peak") + "\u00A0";
     if (shows_peaks(spec) || (spec.by_collision && single)) c.rows = static_cast<std::size_t>(context.members());
     Range values = range_of(context, spec, c.panel.series);
     if (single && dotted) values = add_places(context, shown_time(context, spec), c);
@@ -284,7 +288,7 @@ ChartContent strip_content(const FilmContext& context, const PanelSpec& spec) {
         values = {0, 1};
     if (is_force(first) && !unit.empty()) unit = context.scales.force_unit.symbol + unit;
     c.set_values(values, symbols, unit);
-    if (is_force(first)) c.panel.y.unit = context.scales.force_unit.factor, c.panel.y.round_ends = false;
+    if (is_force(first)) c.panel.y.unit = context.scales.force_unit.factor;
     return c;
 }
 

@@ -123,7 +123,7 @@ class CollisionPanel final : public FilmPanel {
     }
     double touch_of(const Latest& latest, int m) const {
         const Collision* own = collision(latest, m);
-        return own ? own->span.low : 0;
+        return own ? own->span.low : 2 * context_.clock.span.high;  // after the film
     }
 
     // The time axis of a collision, from its first touch.

@@ -50,7 +50,7 @@ Chart::Chart(ChartContent content, const Box& box, const Box& plot, const figure
     if (!windowed() && !c_.past_only) draw_whole_past(fonts);
 }
 
-// Rows that would be too low are one. A row with values below a twentieth of the axis has an axis of its own.
+// Rows that would be too low are one. All have the same axes.
 void Chart::make_rows(const Fonts& fonts) {
     const auto wanted = static_cast<double>(c_.rows);
     const double gap = std::round(kBetweenRows * style_.numbers), high = std::floor((area_.h + gap) / wanted - gap);
@@ -60,9 +60,6 @@ void Chart::make_rows(const Fonts& fonts) {
         if (rows == 1) break;
         row.series.assign(c_.panel.series.begin() + std::ptrdiff_t(rows), c_.panel.series.end());
         row.series.push_back(c_.panel.series[k]);
-        const std::vector<double>& values = row.series.back().y;
-        const double largest = values.empty() ? 0 : std::ranges::max(values);
-        if (largest > 0 && largest < 0.05 * c_.values().high) row.y.to = 1.3 * largest;
         std::erase_if(row.events, [k](const figure::EventTick& at) { return at.lane != static_cast<int>(k); });
         for (figure::EventTick& at : row.events) at.lane = 0, at.lanes = 1;
     }

@@ -232,8 +232,7 @@ static int decimals_of_still(double t) {
     return std::clamp(kOfEvents - 1 - static_cast<int>(std::floor(std::log10(std::abs(t)))), 0, kOfEvents);
 }
 
-// One digit beyond the smallest step or, from three decimals on, as many as distinguish frames: of a second four at
-// most, 9 is a nanosecond.
+// The last digit changes by about one a frame: of a second four decimals at most, 9 is a nanosecond.
 static int decimals_of_frames(const std::vector<double>& times, double unit, double span) {
     // Steps of few frames are ignored, and those of rounding: the beginnings and ends of freezes.
     std::vector<double> steps;
@@ -242,8 +241,7 @@ static int decimals_of_frames(const std::vector<double>& times, double unit, dou
     const auto rare = static_cast<std::ptrdiff_t>(steps.size() / 20);
     std::ranges::nth_element(steps, steps.begin() + rare);
     const double step = steps[static_cast<std::size_t>(rare)];
-    const int least = -static_cast<int>(std::floor(std::log10(step / unit)));
-    return std::clamp(std::max(std::min(least + 1, 3), least), 1, unit == 1 ? 4 : 9);
+    return std::clamp(static_cast<int>(-std::lround(std::log10(step / unit))), 1, unit == 1 ? 4 : 9);
 }
 
 TimeFormat time_format(const std::vector<double>& times, double latest) {

@@ -55,31 +55,23 @@ void draw_ticks(Painter& painter, std::span<const Tick> ticks, const Box& plot, 
     }
 }
 
-// The space of a number below an axis.
-struct Number {
-    double left = 0, right = 0;
-    std::string* label = nullptr;
-};
-
-// The middle of the name of an axis in the row of its numbers below the plot: right of the last number, or left of the
-// first, or in place of the last. If the numbers move, those where the name is at the right end give way.
+// The middle of the name of an axis at the right end of the row of its numbers below the plot, where numbers give way;
+// left of them if none would remain. Nor do numbers remain that would touch the one before.
 double place_name(const Painter& painter, std::vector<Tick>& ticks, const Box& plot, const std::string& name,
                   const TextStyle& style, double unit, bool moves) {
-    std::vector<Number> numbers;
+    const double wide = painter.measure(name, style).w, gap = 14 * unit, end = plot.right() + 8 * unit;
+    double kept = -1e9, first = 1e9;  // the ends of numbers
     for (Tick& tick : ticks) {
         if (tick.label.empty()) continue;
-        const double x = plot.x + plot.w * tick.at, at = moves ? x : middle_of_pixel(x);
-        const double half = painter.measure(tick.label, style).w / 2;
-        numbers.push_back({at - half, at + half, &tick.label});
-        if (moves && at - half <= plot.x - 20 * unit) tick.label.clear();
+        const double at = plot.x + plot.w * tick.at, half = painter.measure(tick.label, style).w / 2;
+        first = std::min(first, at - half);
+        if ((moves && at - half <= plot.x - 20 * unit) || at - half < kept + 4 * unit ||
+            (kept > 0 && at + half >= end - wide - gap))
+            tick.label.clear();
+        else
+            kept = at + half;
     }
-    const double wide = painter.measure(name, style).w, gap = 14 * unit, end = plot.right() + 8 * unit,
-                 least = end - wide - gap, beside = plot.x - 4 * style.size;  // there is the column of numbers
-    if (!moves && !numbers.empty() && numbers.back().right >= least && numbers.front().left - gap - wide >= beside)
-        return numbers.front().left - gap - wide / 2;
-    for (const Number& number : numbers)
-        if (number.right >= least) number.label->clear();
-    return end - wide / 2;
+    return kept < end - wide - gap ? end - wide / 2 : first - gap - wide / 2;
 }
 
 }  // namespace
@@ -98,7 +90,8 @@ void Plot::fit_x(const Painter& on, const Axis& axis, const Extent& data) {
     for (int most = std::clamp(most_that_fit, 2, axis.grid ? 6 : 7); most >= 2; --most) {
         x_.emplace(axis, data, most, what);
         const auto [low, high] = x_->ends();
-        const double wide = on.measure(fixed(high, decimals_of(x_->step())), numbers).w + 14 * style_->unit;
+        const auto width = [&](double end) { return on.measure(fixed(end, decimals_of(x_->step())), numbers).w; };
+        const double wide = std::max(width(low), width(high)) + 14 * style_->unit;
         if (x_->step() / (high - low) * width_ >= wide) break;
     }
 }
@@ -108,7 +101,7 @@ void Plot::fit(const Painter& on, double width, double height) {
     auto [ex, ey, eb] = extents_of(*panel_);
     fit_x(on, panel_->x, ex);
     const int up = style_->palette
-                       ? std::clamp(static_cast<int>(height / (40 * style_->unit)), 2, panel_->y.grid ? 6 : 5)
+                       ? std::clamp(static_cast<int>(height / (40 * style_->unit)), 3, panel_->y.grid ? 6 : 5)
                        : std::clamp(static_cast<int>(height / (2.3 * style_->numbers)), 3, 8);
     y_.emplace(panel_->y, ey, up, what_ + ", vertical axis");
     bar_.reset();

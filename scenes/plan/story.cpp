@@ -57,10 +57,6 @@ std::string touch_of(const sim::Collision& c, Lang lang) {
            phrase(lang, "at {}", quantity(std::abs(c.v_n_before), "m/s"));
 }
 
-std::string impacts_text(std::ptrdiff_t count, Lang lang) {
-    return phrase(lang, count == 1 ? "{} impact" : "{} impacts", count);
-}
-
 // The index of the first collision that begins at `from` or later, but not with the motion itself.
 std::size_t collision_after(double from, const sim::Result& motion) {
     const auto found =
@@ -171,7 +167,7 @@ void tell_collision(PictureOutput& film, const sim::Collision& c, const sim::Pro
     if (!c.t_end)
         tell(film, liftoff, phrase(lang, "stays in contact"));
     else if (liftoff > touch)
-        tell(film, liftoff, phrase(lang, "lifts off after {}", quantity(liftoff - touch, "s")), kAtLiftoff);
+        tell(film, liftoff, phrase(lang, "the collision ends after {}", quantity(liftoff - touch, "s")), kAtLiftoff);
 }
 
 PictureOutput told_impact(PictureOutput film, const Scene& scene, const sim::Result& motion, const FindEvents& find) {
@@ -262,16 +258,11 @@ PictureOutput told_settle(PictureOutput film, const Scene& scene, const sim::Res
     };
     const auto all = impacts_between(first.t_start, settled);
     const bool endless = scene.problem.contact.model != sim::ContactModel::compliant && all > 1;
-    if (const auto more = impacts_between(slow_until, settled); more > 1) {
-        const std::string time = quantity(settled - slow_until, "s");
-        tell(film, slow_until,
-             endless ? phrase(lang, "infinitely many more impacts in {}", time)
-                     : phrase(lang, "{} more impacts in {}", more, time));
-    }
-    const std::string impacts = endless ? phrase(lang, "infinitely many impacts") : impacts_text(all, lang);
-    tell(film, settled,
-         phrase(lang, "stays in contact from {} on", fmt::format("{:.4g} s", settled)) + ", " +
-             phrase(lang, "after {}", impacts),
+    const std::string impacts = endless ? phrase(lang, "infinitely many impacts")
+                                        : phrase(lang, all == 1 ? "{} impact" : "{} impacts", all),
+                      rest = fmt::format("{:.4g}\u00A0s", settled);
+    if (impacts_between(slow_until, settled) > 1) tell(film, slow_until, phrase(lang, "{} until {}", impacts, rest));
+    tell(film, settled, phrase(lang, "stays in contact from {} on", rest) + ", " + phrase(lang, "after {}", impacts),
          kAtRest);
     return film;
 }

@@ -96,7 +96,7 @@ TEST(Layout, LettersHaveThreeSizes) {
     // In square and portrait pictures, of the width.
     for (const auto& [w, h] : {std::pair{1080, 1920}, {1080, 1080}, {720, 1280}})
         EXPECT_GE(letters(w, h).words, 0.022 * w) << w << "x" << h;
-    EXPECT_NEAR(letters(1080, 1920).words, 1.5 * letters(1280, 720).words, 1e-9);
+    EXPECT_NEAR(letters(720, 1280).words, 1.5 * letters(1280, 720).words, 1e-9);
     EXPECT_EQ(letters(64, 48).words, kReadable);
     const Layout usual = standard_layout(1920, 1080, {}), large = standard_layout(1920, 1080, {}, 1, {.size = 1.3});
     EXPECT_NEAR(large.letters.words, 1.3 * usual.letters.words, 1e-9);

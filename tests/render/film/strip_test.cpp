@@ -238,7 +238,7 @@ TEST(CollisionStrip, HasAxesBeforeTheFirstCollision) {
     EXPECT_GT(cursor(18), 0);
 }
 
-// Compared motions have their touches at one place, and each a row up to its own time.
+// Compared motions have their touches at one place, and each a row up to its own time; nothing without a touch.
 TEST(CollisionStrip, EachMotionHasItsOwnTouch) {
     PanelSpec by_collision = strip(ChannelKind::contact_force);
     by_collision.by_collision = true;
@@ -248,12 +248,14 @@ TEST(CollisionStrip, EachMotionHasItsOwnTouch) {
     later.impacts[0].t_start += 0.02, *later.impacts[0].t_end += 0.02;
     setup.label = "a", later.label = "b";
     setup.others = {later};
+    FilmSetup untouched = setup;
+    untouched.others[0].impacts.clear();
     const FilmContext context(std::make_shared<const FilmSetup>(setup));
-    Film film(std::move(setup));
-    const FrameGeometry g = film.geometry(0);
+    Film both(std::move(setup)), one(std::move(untouched));
+    const FrameGeometry g = both.geometry(0);
     const Box plot = plot_area(g.layout.first(PanelKind::strip)->box, g.layout.unit, g.layout.letters.words);
-    const auto columns = [&](int frame, int member) {  // of the curve's colour
-        const Image image = drawn(film, frame);
+    const auto columns = [&](int frame, int member, bool touched = true) {  // of the curve's colour
+        const Image image = drawn(touched ? both : one, frame);
         const double gap = g.layout.letters.words,
                      bottom = plot.bottom() - (1 - member) * (plot.h + gap) / 2;  // of its row
         std::vector<int> found;
@@ -271,6 +273,8 @@ TEST(CollisionStrip, EachMotionHasItsOwnTouch) {
     EXPECT_NEAR(columns(1, 0).back(), columns(1, 1).back(), 2);
     EXPECT_LT(columns(0, 0).back(), columns(1, 0).back() - 50);
     EXPECT_TRUE(columns(0, 1).empty());
+    EXPECT_FALSE(columns(1, 0, false).empty());
+    EXPECT_TRUE(columns(1, 1, false).empty());
 }
 
 // A deflection of the size of rounding errors is drawn as zero.

@@ -79,26 +79,28 @@ TEST(Quantity, ValuesBesideEachOtherShareAPrefix) {
     EXPECT_EQ(quantity(125, prefix_for(500), "N"), "125\u00A0N");
 }
 
-// The name of an axis does not hide a number: where the last one is at the end of the axis, it is left of the first.
-TEST(Ticks, TheNameOfTheAxisLeavesTheLastNumber) {
+// Numbers that the name or another number would touch are left out; without any number the name would be left of them.
+TEST(Ticks, TheNameOfTheAxisIsAtItsRightEnd) {
     const Palette& p = palette(Theme::light);
     const Fonts fonts(false);
-    for (const auto& [width, written] : {std::pair{600.0, 7U}, {200.0, 3U}}) {
+    for (const auto& [width, from] : {std::pair{600.0, 0.0}, {200.0, 0.0}, {130.0, -1.0}, {40.0, 0.0}}) {
         Image image(800, 100);
         Canvas canvas(image, fonts);
         std::vector<Box> texts;
         canvas.record = &texts;
         const Box plot{50, 10, width, 50};
         const figure::PlotStyle style = figure::film_style(p, 1, 21, 17);
-        figure::Panel panel{.x = {.label = "$t$ / s", .from = 0, .to = 1, .unit = 1}, .y = {.from = 0, .to = 1}};
+        figure::Panel panel{.x = {.label = "$t$ / s", .from = from, .to = 1, .unit = 1}, .y = {.from = 0, .to = 1}};
         figure::Plot axes(panel, style, "test");
         axes.place(canvas, plot);
         axes.draw_x_axis(canvas);
-        ASSERT_EQ(texts.size(), written);
+        ASSERT_GE(texts.size(), 2U);
         for (std::size_t i = 0; i < texts.size(); ++i)
             for (std::size_t j = 0; j < i; ++j) EXPECT_FALSE(texts[i].overlaps(texts[j])) << i << ", " << j;
-        EXPECT_NEAR(texts[texts.size() - 2].centre().x, plot.right(), 2);
-        EXPECT_LT(texts.back().right(), texts.front().x - 10);
+        if (width > 100)
+            EXPECT_NEAR(texts.back().right(), plot.right() + 8, 2);
+        else
+            EXPECT_LT(texts.back().right(), texts.front().x - 10);
     }
 }
 

@@ -58,6 +58,7 @@ TEST(Page, ATitleMayLookLikeAPlaceOfThePage) {
         const std::string page = render::html_page(setup);
         EXPECT_THAT(page, HasSubstr("<title>" + std::string(title) + "</title>"));
         EXPECT_THAT(page, HasSubstr("<h1>" + std::string(title) + "</h1>"));
+        EXPECT_THAT(page, HasSubstr("frictionless</span>"));  // the last parameter
         EXPECT_EQ(data_of(page)["title"], title);
     }
 }
