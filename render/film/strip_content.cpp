@@ -201,7 +201,7 @@ static std::string add_sticking(const FilmContext& context, const PanelSpec& spe
         }
         c.panel.series.push_back(std::move(curve));
     }
-    return ", " + colored(static_coefficient == law->coefficient ? "±$μF$" : "±$μF$ or ±$μ$_{s}$F$", p.muted);
+    return ", " + colored(static_coefficient == law->coefficient ? "±$μF$" : "±$μF$, ±$μ$_{s}$F$", p.muted);
 }
 
 ChartContent blank_content(const FilmContext& context, const PanelSpec& spec, int member) {
