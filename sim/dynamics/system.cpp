@@ -12,8 +12,8 @@ namespace {
 // Baumgarte rate: kDecayOfVibration of the lowest bending frequency or, of a rigid beam, kDecayOfPendulum of √(g/L). So
 // it is slower than vibration and faster than the pendulum.
 constexpr double kDecayOfVibration = 0.1, kDecayOfPendulum = 10;
-constexpr double kLeastGravity = 1e-3;  // [m/s²] keeps that rate above zero
-constexpr double kLongestTurn = 0.1;    // [rad] of a cam with a profile, whose segments may be as short
+constexpr double kLeastGravity = 1e-3;   // [m/s²] keeps that rate above zero
+constexpr double kLongestCamTurn = 0.1;  // [rad] of a cam with a profile, whose segments may be as short
 
 // Of a cam with a profile, Hertz's stiffness is that of its largest radius of curvature.
 NormalLaw normal_law_of(const Problem& problem, const TurningCam& cam) {
@@ -42,7 +42,8 @@ System::System(const Problem& problem)
     ledger_at = 2 * n_ + (has_bristle() ? 1 : 0);
     size = ledger_at + kLedgerSize;
     set_phase({});
-    if (problem.cam && problem.cam->profile && cam_.speed() != 0) longest_step = kLongestTurn / std::fabs(cam_.speed());
+    if (problem.cam && problem.cam->profile && cam_.speed() != 0)
+        longest_step = kLongestCamTurn / std::fabs(cam_.speed());
     for (int i = 0; i + 1 < n_; ++i) highest_frequency_ = std::max(highest_frequency_, model_->frequency(i));
     baumgarte_rate_ =
         n_ > 1 ? kDecayOfVibration * model_->frequency(0)
