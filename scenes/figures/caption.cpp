@@ -29,7 +29,7 @@ std::string caption_value(const Node& value, const std::string& path, const Para
     if (value.kind == Node::Kind::number) {
         const auto key = sim::number_key(of.problem, path);
         const Measure shown = measure_of(key ? sim::si_unit(key->dimension) : "", std::abs(value.number), of.units);
-        return with_unit(number(shown.factor * value.number, 6), shown.unit);
+        return value.number == 0 ? "0" : with_unit(number(shown.factor * value.number, 6), shown.unit);
     }
     if (value.kind != Node::Kind::array) return render::escaped(one_line(value));
     std::vector<std::string> items;
@@ -45,13 +45,14 @@ bool is_long(const Node& value) {
             !std::ranges::all_of(value.items, [](const Node& item) { return item.kind == Node::Kind::number; }));
 }
 
-// "cam speed = 0", "no cam" or "own cam profile segments" of each key whose value is not that of `usual`.
+// "cam speed = 0", "no cam" or "own cam profile segments" of each key whose value is not that of `usual`, or zero if
+// `usual` lacks it.
 void add_differences(const Node& node, const Node* usual, const std::string& path, Parameters& out) {
     if (node.kind == Node::Kind::object) {
         for (const Member& member : node.members)
             add_differences(member.value, usual ? child(*usual, member.key) : nullptr,
                             path.empty() ? member.key : path + "." + member.key, out);
-    } else if (!usual || one_line(node) != one_line(*usual)) {
+    } else if (usual ? one_line(node) != one_line(*usual) : node.kind != Node::Kind::number || node.number != 0) {
         const std::string words = words_of(path);
         out.differences.push_back(node.kind == Node::Kind::null ? "no " + words
                                   : is_long(node)               ? "own " + words
@@ -62,7 +63,9 @@ void add_differences(const Node& node, const Node* usual, const std::string& pat
 Node caption_tree(const sim::Problem& problem) {
     Scene scene;
     scene.problem = problem;
-    scene.problem.contact.exponent = contact_exponent(problem);
+    std::optional<double>& exponent = scene.problem.contact.exponent;
+    exponent.reset();
+    if (contact_exponent(problem) != contact_exponent(scene.problem)) exponent = contact_exponent(problem);
     if (problem.contact.offset) scene.problem.beam.depth.reset();  // it is only drawn
     std::vector<double>& damping = scene.problem.beam.damping_ratio;
     if (largest_magnitude(damping) == 0) damping.clear();

@@ -59,7 +59,7 @@ DeflectionCurves shape_of(const sim::Problem& problem, double angle, double supp
              .weight = first ? 1 : 0.9,
              .color = render::figure::look(static_cast<int>(i)).color};
     out.slope = out.v;
-    if (first) out.slope.label = fmt::format("$l_{{1}}$ = {}", length_text(support));  // the key to the colours
+    if (first) out.v.label = fmt::format("$l_{{1}}$ = {}", length_text(support));  // the key to the colours
     for (const bool overhang : {false, true}) {
         const double from = overhang ? support : 0, to = overhang ? reach : support;
         for (int k = 0; k < kPerSpan; ++k) {
@@ -100,12 +100,13 @@ Figure deflection_figure(const Subject& subject, const MotionResults&) {
                                 .solid = curves[k].printing == Printing::corrected,
                                 .color = render::rgb(0x000000)});
     shape.caption = "static deflection across the beam", slope.caption = "slope along it";
-    Figure figure{.title = fmt::format(
-                      "The beam at rest, inclined by {}°{}, hinged at "
-                      "$O$, supported at the marks, $l_{{1}}$ = {}{}",
-                      number(at.angle * 180 / M_PI, 4), at.tangent ? ", tangent to the centred disc" : "",
-                      fmt::join(supports, ", "),
-                      several ? "; printed: eq. (5); completed: with its missing terms; corrected: along the rod" : ""),
+    Figure figure{.title = fmt::format("The beam at rest, inclined by {}°{}, hinged at "
+                                       "$O$, supported at the marks, $l_{{1}}$ = {}{}",
+                                       number(at.angle * 180 / M_PI, 4),
+                                       at.tangent ? ", tangent to the centred disc" : "", fmt::join(supports, ", "),
+                                       several ? "; printed: eq. (5) of Acta Physica Sinica 65, 240502 (2016); "
+                                                 "completed: with its missing terms; corrected: along the rod"
+                                               : ""),
                   .panels = lettered({std::move(shape), std::move(slope)}),
                   .share_x = true,
                   .aspect = 1.15};

@@ -17,9 +17,9 @@ namespace {
 
 // Instants of the fall: a quarter of a millisecond apart, or nearer in a short scene.
 int fall_rows(double end) { return static_cast<int>(std::clamp(end / 2.5e-4, 4e3, 4e4)) + 1; }
-constexpr int kTrial = 5;         // points of the first round: 0.21 … 0.25 m in the paper
-constexpr int kRefined = 8;       // intervals between two trial points in the second round
-constexpr double kShown = 0.012;  // before the touch, and half as long after it [s]; less of a short fall
+constexpr int kTrial = 5;     // points of the first round: 0.21 … 0.25 m in the paper
+constexpr int kRefined = 8;   // intervals between two trial points in the second round
+constexpr double kShown = 4;  // before the touch, of the time between the zeros; after it half as much
 constexpr const char* kDistanceTitle = "Points of the freely falling beam near the first touch of the cam";
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
@@ -142,7 +142,8 @@ Trial try_points(const sim::Result& fall, const Stations& searched, const std::v
 
 Panel distance_panel(const Trial& trial) {
     const DistanceHistory& f = trial.history;
-    const double touch = trial.when[trial.first], shown = std::min(kShown, 0.25 * touch);
+    const double touch = trial.when[trial.first], last = std::ranges::max(trial.when);  // or kNever
+    const double shown = std::clamp(kShown * (last - touch), 0.01 * touch, 0.25 * touch);
     const auto is_shown = [&](double t) { return t >= touch - shown && t <= touch + 0.5 * shown; };
     double farthest = 0;  // [m]
     for (std::size_t k = 0; k < f.x.size(); k += kRefined)
@@ -182,8 +183,7 @@ Panel arrivals_panel(const Trial& trial, const sim::Result& strikes, Lang lang) 
     const sim::Impact& touch = strikes.impacts.front();
     panel.caption +=
         fmt::format(", and the located touch at $x$ = {} m after {} s", number(touch.x, 4), grouped(touch.t_start, 6));
-    panel.marks.push_back(
-        {.x = touch.x, .y = touch.t_start * time.factor, .label = phrase(lang, "located"), .look = 6});  // black
+    panel.rules.push_back({.at = touch.x, .vertical = true, .label = phrase(lang, "located")});
     return panel;
 }
 

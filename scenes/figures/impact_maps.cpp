@@ -67,7 +67,7 @@ std::vector<Panel> impact_maps(const Subject& subject, const sim::Result& result
     const std::vector<sim::Collision> all = strikes(problem, result.collisions, from, to);
     for (std::size_t k = 0; k + 1 < all.size(); ++k)
         next.series[0].add(std::abs(all[k].v_n_before), std::abs(all[k + 1].v_n_before));
-    loss.rules = {{.at = 1, .label = phrase(lang, "as fast as before")}, {.at = law}};
+    loss.rules = {{.at = 1}, {.at = law}};
     const double largest = loss.series[0].y.empty() ? 1 : std::max(1.0, std::ranges::max(loss.series[0].y));
     loss.y.to = 1.05 * largest;
     if (largest > kLargestLinearRatio) loss.y.scale = render::Scale::logarithmic, loss.y.from.reset();

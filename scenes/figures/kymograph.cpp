@@ -76,6 +76,7 @@ FigureDrawing prepare_kymograph(const Scene& scene, const FigureOutput& how, Mot
         const auto& [problem, units, lang, end] = subject;
         Panel panel =
             kymograph_panel(deflections(result.poses[shown.poses], samples), shown, problem.beam.length, samples > 1);
+        if (panel.color_bar->root) panel.title = phrase(lang, "√ colours");
         std::string title = kKymographTitle;
         if (samples > 1) title += fmt::format("; |$v$|: the largest in each of {} intervals", kColumns);
         Series hits{.label = phrase(lang, "impacts"),
@@ -84,7 +85,7 @@ FigureDrawing prepare_kymograph(const Scene& scene, const FigureOutput& how, Mot
                     .line = false,
                     .every_point = true};  // black
         for (const sim::Impact& hit : strikes(problem, result.impacts, shown.from, shown.to))
-            hits.add(hit.t_start, hit.x * measure_of("m", problem.beam.length).factor);
+            if (hit.t_start > shown.from) hits.add(hit.t_start, hit.x * measure_of("m", problem.beam.length).factor);
         if (!hits.x.empty()) title += "; dots: impacts";
         panel.legend = !hits.x.empty();
         panel.series.push_back(std::move(hits));

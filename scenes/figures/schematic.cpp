@@ -39,7 +39,7 @@ bool has_torque(const sim::Drive& drive) {
 // At other angles the symbols of beam and frames would overlap.
 double drawn_angle(const sim::Problem& p) {
     const double angle = std::clamp(start_angle(p), -1.4, 1.4);
-    return std::abs(angle) < 0.15 ? 0.15 : angle;
+    return std::abs(angle) < 0.23 ? 0.23 : angle;
 }
 
 class Drawing : private Sketch {
@@ -104,6 +104,7 @@ class Drawing : private Sketch {
         line(c, {c.x, low - 0.02 * unit_}, kGrey, 0, {3, 3});
         dimension({0, low}, {c.x, low});
         label({0.5 * c.x, low}, "$D$", {0, -0.85});
+        if (cam.profile && cam.speed != 0) rotation(c, 1.1 * reach, -0.25 * std::numbers::pi, cam.speed);
         if (cam.profile) return;
 
         const double radius = kMagnified * unit_, zoom = radius / cam.radius;
@@ -168,10 +169,9 @@ class Drawing : private Sketch {
         if (is_flexible()) {
             const double at = 0.70;
             const Vec2 foot = (p_.hub.radius + at * p_.beam.length) * i, sagging = on_beam(at);
-            arrow(foot, sagging, kRed, 0.9);
-            // Above the beam where the axis X is close below it.
-            const bool low = sagging.y > 0 && sagging.y < 1.25 * letter_height();
-            label(low ? foot : sagging, "$v$($x$, $t$)", low ? Vec2{0, 1} : Vec2{2.4, -0.7}, kRed);
+            arrow(foot, sagging, kBlue, 0.9);
+            const bool low = theta_ > 0 && theta_ < 0.4;  // above the beam, which has the axis X or the cam close below
+            label(low ? foot : sagging, "$v$($x$, $t$)", low ? Vec2{0, 1} : Vec2{2.4, -0.7}, kBlue);
         }
         // Length, beside the beam.
         const Vec2 off = kDimension * size_ * j;
@@ -205,11 +205,10 @@ class Drawing : private Sketch {
     }
 
     void angle() {
-        const double r = std::max(0.115 * unit_, 1.2 * p_.hub.radius);
+        // So far away that the label has room between beam and axis.
+        const double r = std::max({0.115 * unit_, 1.2 * p_.hub.radius, 1.2 * letter_height() / std::abs(theta_)});
         add({.kind = Kind::turn, .centre = {0, 0}, .radius = r, .from = 0, .to = theta_, .color = kInk, .width = 0.8});
-        constexpr double kNarrow = 0.55;  // [rad]: no room between beam and axis
-        if (std::abs(theta_) < kNarrow) return label({r, 0}, "$θ$", {0.3, theta_ > 0 ? -0.9 : 0.9});
-        label(r * sim::unit(0.5 * theta_), "$θ$", {0.75 * std::cos(0.5 * theta_) + 0.2, 0.75 * std::sin(0.5 * theta_)});
+        label(r * sim::unit(0.5 * theta_), "$θ$", 0.75 * sim::unit(0.5 * theta_));
     }
 
     void gravity() {
@@ -241,9 +240,8 @@ std::string symbols_of(const sim::Problem& p) {
     if (p.gravity != 0) all += "; $g$: gravity";
     if (!p.cam) return all;
     all += "; $C$: axis of the cam, at the distance $D$ from $O$";
-    if (p.cam->profile) return all;
-    all += "; $B$: centre of its disc; $R$: radius";
-    if (p.cam->eccentricity > 0) all += "; $e$: eccentricity";
+    if (!p.cam->profile) all += "; $B$: centre of its disc; $R$: radius";
+    if (!p.cam->profile && p.cam->eccentricity > 0) all += "; $e$: eccentricity";
     if (p.cam->speed != 0) all += "; $ω$: speed";
     return all;
 }

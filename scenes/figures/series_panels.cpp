@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "render/base/error.hpp"
@@ -58,9 +59,6 @@ class SeriesPanelMaker {
           first_(plan.motions[planned.motions.front()]) {}
 
     std::vector<Panel> make() {
-        panel_.title = keys_.sums.size() == 1 && keys_.title.empty() ? phrase(plan_.lang, keys_.sums.front().label)
-                                                                     : phrase(plan_.lang, keys_.title);
-        if (shows_some()) panel_.title = first_.label + (panel_.title.empty() ? "" : ": ") + panel_.title;
         if (!has_sums()) panel_.name = name(keys_.channels.front());
         if (keys_.logarithmic) panel_.y.scale = render::Scale::logarithmic;
         panel_.y.from = keys_.low, panel_.y.to = keys_.high;
@@ -69,6 +67,9 @@ class SeriesPanelMaker {
             axis_label(keys_.label.empty() ? fmt::format("{}", fmt::join(symbols_, ", ")) : keys_.label, measure_.unit);
         panel_.y.keeps_unit = !keys_.unit.name.empty();
         for (std::size_t i = 0; i < planned_.curves.size(); ++i) planned_.curves[i].sum ? add_sum(i) : add_curve(i);
+        if (panel_.series.size() == 1) panel_.series.front().solid = true;
+        panel_.title = phrase(plan_.lang, sums_.size() == 1 && keys_.title.empty() ? sums_.front() : keys_.title);
+        if (shows_some()) panel_.title = first_.label + (panel_.title.empty() ? "" : ": ") + panel_.title;
         if (shows_motion_with_data()) add_data();
         limit_axis();
         const auto labelled = [](const Series& curve) { return !curve.label.empty(); };
@@ -175,18 +176,30 @@ class SeriesPanelMaker {
         is_rounding_ = plan_.keys.panels.size() > 1 && !(floor > 0 && most > 10 * floor);
     }
 
-    // A sum of several channels that is zero throughout is omitted.
+    // The look in the colour that the quantity has in films, else the next one; vermilion belongs to the contact.
+    int look_of(sim::ChannelKind kind) {
+        using enum sim::ChannelKind;
+        constexpr int kVermilion = 1;
+        static const std::map<sim::ChannelKind, int> kOfFilms{
+            {energy_kinetic, 0},  {energy_potential, 5},       {energy_elastic, 3},
+            {loss_structural, 7}, {contact_force, kVermilion}, {energy_contact, kVermilion}};
+        if (const auto of_film = kOfFilms.find(kind); of_film != kOfFilms.end()) return of_film->second;
+        while (curves_ == kVermilion || std::ranges::count(panel_.series, curves_, &Series::look) > 0) ++curves_;
+        return curves_++;
+    }
+
+    // Of several sums one that is zero throughout is omitted.
     void add_sum(std::size_t i) {
         const SeriesSum& sum = *planned_.curves[i].sum;
         const std::vector<double>& values = rows_[i].values.back();
-        if (sum.plus.size() > 1 && is_zero(rows_[i])) return;
+        if (keys_.sums.size() > 1 && is_zero(rows_[i])) return;
         sums_.push_back(sum.label);
         constexpr int kBlack = 6;
         const bool total = !sum.minus.empty();
         Series curve{.label = phrase(plan_.lang, sum.label),
                      .x = plan_.abscissa.of(rows_[i], plan_.motions[planned_.curves[i].motion].problem),
                      .y = scaled(values, measure_.factor),
-                     .look = total ? kBlack : curves_++,
+                     .look = total ? kBlack : look_of(sum.plus.front().kind),
                      .solid = total,
                      .weight = total ? 1 : kCurveWeight};
         curve.t = rows_[i].values[0];
@@ -199,22 +212,23 @@ class SeriesPanelMaker {
         const SeriesMotion& motion = plan_.motions[planned_.curves[i].motion];
         const std::size_t shown = planned_.motions.size(), channel = i / shown;
         const sim::Table& rows = rows_[i];
+        if (shown > 1 && is_zero(rows) && !std::ranges::all_of(rows_, is_zero)) return;
         const bool one_channel = keys_.channels.size() == 1;
         const std::string label = phrase(plan_.lang, motion.label);
         const std::string alone = one_channel && has_data() ? phrase(plan_.lang, "simulation") : symbols_[channel];
         // Motions that coincide have one look.
         const int looks = 1 + std::ranges::max(looks_);
-        Series whole{
-            .label = shown == 1    ? alone
-                     : one_channel ? label
-                                   : fmt::format("{}, {}", label, symbols_[channel]),
-            .x = plan_.abscissa.of(rows, motion.problem),
-            .y = scaled(rows.values.back(), measure_.factor),
-            .name = shown == 1 ? symbols_[channel] : "",
-            .look = shown == 1 ? curves_ : static_cast<int>(channel) * looks + looks_[planned_.curves[i].motion],
-            .solid = keys_.channels[channel].kind == sim::ChannelKind::contact_force,
-            .weight = kCurveWeight};
-        curves_ = std::max(curves_, whole.look + 1);
+        Series whole{.label = shown == 1    ? alone
+                              : one_channel ? label
+                                            : fmt::format("{}, {}", label, symbols_[channel]),
+                     .x = plan_.abscissa.of(rows, motion.problem),
+                     .y = scaled(rows.values.back(), measure_.factor),
+                     .name = shown == 1 ? symbols_[channel] : "",
+                     .look = shown == 1 ? look_of(keys_.channels[channel].kind)
+                                        : static_cast<int>(channel) * looks + looks_[planned_.curves[i].motion],
+                     .solid = keys_.channels[channel].kind == sim::ChannelKind::contact_force,
+                     .weight = kCurveWeight};
+        if (shown > 1) curves_ = std::max(curves_, whole.look + 1);
         std::vector<Series> parts = by_reliability(whole, rows.values[0], plan_.unreliable(*results_[motion.request]));
         if (parts.size() > 1) parts.front().label.clear();
         for (Series& part : parts) {

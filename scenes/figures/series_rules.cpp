@@ -30,11 +30,14 @@ Rules impact_rules(const sim::Result& result, double from, double to) {
 }
 
 // The ends of the intervals in which θ is not reproducible.
-Rules horizon_rules(const sim::Result& result, double from, double to) {
+Rules horizon_rules(const sim::Result& result, double from, double to, Lang lang) {
     Rules rules;
     for (const UnreliableInterval& interval : unreliable_intervals(result, to))
         for (const double t : {interval.from, interval.to})
-            if (t > from && t < to) rules.push_back({.at = t, .vertical = true});
+            if (t > from && t < to)
+                rules.push_back({.at = t,
+                                 .vertical = true,
+                                 .label = rules.empty() ? phrase(lang, "paler: $θ$ not reproducible") : ""});
     return rules;
 }
 
@@ -66,7 +69,7 @@ Rules series_rules(const SeriesPlan& plan, const PlannedPanel& panel, const Moti
     if (plan.keys.impacts)
         all = impact_rules(result, from, to);
     else if (panel.motions.size() == 1)
-        all = horizon_rules(result, from, to);
+        all = horizon_rules(result, from, to, plan.lang);
     std::ranges::move(note_rules(plan.keys.notes, result, from, to, panel.number == 0), std::back_inserter(all));
     for (render::figure::Rule& rule : all) rule.at *= plan.abscissa.per_second(first.problem);
     return all;

@@ -15,8 +15,7 @@ class Sketch {
     using Vec2 = sim::Vec2;
     using Kind = Shape::Kind;
     static constexpr render::Color kInk = render::rgb(0x000000), kBlue = render::rgb(0x0072B2),
-                                   kRed = render::rgb(0xD55E00), kGrey = render::rgb(0x777777),
-                                   kSteel = render::rgb(0xE6E8EC);
+                                   kGrey = render::rgb(0x777777), kSteel = render::rgb(0xE6E8EC);
 
     std::vector<Shape> take() { return std::move(shapes_); }
 
@@ -41,6 +40,12 @@ class Sketch {
     }
     void circle(Vec2 at, double radius, render::Color color, double width) {
         add({.kind = Kind::circle, .centre = at, .radius = radius, .color = color, .width = width});
+    }
+    // An arrow about the centre in the sense of a cam of this speed, at the direction `middle`.
+    void rotation(Vec2 centre, double radius, double middle, double speed) {
+        const double half = speed > 0 ? -0.5 : 0.5;
+        add({.kind = Kind::turn, .centre = centre, .radius = radius, .from = middle - half, .to = middle + half});
+        label(centre + radius * sim::unit(middle), "$ω$", 0.8 * sim::unit(middle));
     }
     void disc(Vec2 at, double radius, render::Color fill = kSteel, double outline = 0.9) {
         add({.kind = Kind::disc, .centre = at, .radius = radius, .color = fill});

@@ -78,17 +78,9 @@ void shorten(Spectrogram& s, double least) {
     s.amplitude = std::move(kept), s.lines = shown;
 }
 
-// A twentieth of the interval, or four periods of the slowest vibration; four windows must fit.
-double usual_window(const sim::Problem& problem, double length) {
-    const std::vector<double> frequencies = frequencies_of(problem);
-    if (frequencies.empty()) return length / 20;
-    const double slowest = frequencies.front();
-    if (length * slowest < 16)
-        throw render::PictureError(
-            fmt::format("figure spectrogram: {:g} s are too few periods of the slowest vibration, {:.3g} Hz; raise "
-                        "time.end, or set \"window\"",
-                        length, slowest));
-    return std::max(length / 20, 4 / slowest);
+// A twentieth of the interval, or four periods of the slowest vibration if four windows fit.
+double usual_window(const std::vector<double>& frequencies, double length) {
+    return frequencies.empty() ? length / 20 : std::clamp(4 / frequencies.front(), length / 20, length / 4);
 }
 
 render::figure::Cells cells_of(const Spectrogram& s, double most, double factor) {
@@ -116,7 +108,7 @@ sim::Channel channel_of(const SeriesKeys& keys) {
 // `measure`: of the amplitudes, of which `most` is the largest.
 Panel spectrogram_panel(sim::Channel channel, const Spectrogram& s, double most, const Measure& measure, Lang lang) {
     const double largest = most * measure.factor;
-    return {.title = phrase(lang, "windows of {}, drawn at their middles", render::quantity(s.window, "s")),
+    return {.title = phrase(lang, "windows of {}; dashed: natural frequencies", render::quantity(s.window, "s")),
             .x = {.label = "$t$ / s", .tight = true},
             .y = {.label = "$f$ / Hz", .tight = true},
             .cells = {cells_of(s, most, measure.factor)},
@@ -133,7 +125,8 @@ FigureDrawing prepare_spectrogram(const Scene& scene, const FigureOutput& how, M
     const SeriesKeys& keys = how.series;
     const sim::Channel channel = channel_of(keys);
     const double from = keys.from, to = keys.to.value_or(scene.end_time);
-    const double window = keys.window.value_or(usual_window(scene.problem, to - from));
+    const std::vector<double> frequencies = frequencies_of(scene.problem);
+    const double window = keys.window.value_or(usual_window(frequencies, to - from));
     if (!(window <= (to - from) / 2))
         throw render::PictureError(fmt::format(
             "figure spectrogram: windows of {:g} s do not move along {:g} s; at most half of it", window, to - from));
@@ -153,9 +146,11 @@ FigureDrawing prepare_spectrogram(const Scene& scene, const FigureOutput& how, M
                                                        name(channel), from, to));
             if (!highest) shorten(s, most * std::pow(10, -kDecades));
             Panel panel = spectrogram_panel(channel, s, most, measure_of(unit, most, subject.units), subject.lang);
-            panel.x.from = from, panel.x.to = to;
-            return {.title = fmt::format("{}: amplitude by frequency and time, Hann windows of {} s",
-                                         series_title({.panels = {{.channels = {channel}}}}), number(s.window, 3)),
+            for (const double frequency : frequencies)
+                if (frequency < panel.cells.front().y.back()) panel.rules.push_back({.at = frequency});
+            return {.title =
+                        fmt::format("{}: amplitude by frequency and time, Hann windows of {} s, drawn at their middles",
+                                    series_title({.panels = {{.channels = {channel}}}}), number(s.window, 3)),
                     .panels = {std::move(panel)}};
         });
 }

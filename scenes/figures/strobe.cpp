@@ -17,7 +17,7 @@ namespace {
 
 using sim::Vec2;
 
-constexpr int kShownPoses = 9, kPoseStations = 65;
+constexpr int kShownPoses = 6, kPoseStations = 65;
 constexpr const char* kStrobeTitle = "The beam at equally spaced instants, from pale to dark";
 
 // The cam, and the line to its mark from the centre of a disc, or from the axis.
@@ -40,15 +40,6 @@ void add_cam(const sim::Pose& pose, const sim::Problem& problem, render::Color c
     to.line(from, mark, color, 0.6);
 }
 
-// Below the cam, the sense of its rotation.
-void add_rotation(const Vec2 axis, const sim::Problem& problem, Sketch& to, render::Bounds& extent) {
-    const double radius = 1.15 * render::cam_reach(problem), low = -0.5 * std::numbers::pi,
-                 half = std::copysign(0.5, -problem.cam->speed);
-    to.add({.kind = Sketch::Kind::turn, .centre = axis, .radius = radius, .from = low - half, .to = low + half});
-    to.label(axis - Vec2{0, radius}, "$ω$", {0, -0.8});
-    extent.add(axis, radius);
-}
-
 void add_beam(const sim::Pose& pose, render::Color color, Sketch& to, render::Bounds& extent) {
     for (const Vec2 p : pose.centreline) extent.add(p);
     to.add({.kind = Sketch::Kind::line, .points = pose.centreline, .color = color, .width = 1.6});
@@ -67,25 +58,27 @@ void add_speed(const std::vector<sim::Pose>& poses, Sketch& to, render::Bounds& 
     extent.add(tip + way);
 }
 
-// Beyond the tip, where no other beam is drawn.
-void add_instants(const sim::Pose& pose, std::string instants, Sketch& to) {
-    const Vec2 tip = pose.centreline.back(), along = sim::unit(pose.theta);
-    to.add({.kind = Sketch::Kind::label,
-            .points = {tip + 0.04 * norm(tip) * along},
-            .markup = std::move(instants),
-            .align = along.x < 0 ? render::HAlign::right : render::HAlign::left});
-}
-
-// The first and the last one; beams that are too close for two labels have one.
+// The instants beyond the tips; of beams that are close to each other the first and the last one.
 void label_instants(const std::vector<sim::Pose>& poses, Sketch& to) {
-    constexpr double kClose = 0.07;  // in lengths of the beam
-    const sim::Pose &first = poses.front(), &last = poses.back();
-    const int decimals = render::decimals_of(poses[1].t - first.t) + 1;
-    const std::string start = render::fixed(first.t, decimals) + " s", end = render::fixed(last.t, decimals) + " s";
-    const Vec2 tip = last.centreline.back();
-    if (norm(first.centreline.back() - tip) < kClose * norm(tip)) return add_instants(last, start + ", " + end, to);
-    add_instants(first, start, to);
-    add_instants(last, end, to);
+    constexpr double kWide = 0.3, kHigh = 0.06;  // of a label, in lengths of the beam
+    std::vector<std::pair<const sim::Pose*, const sim::Pose*>> labels;
+    for (const sim::Pose& pose : poses) {
+        const Vec2 tip = pose.centreline.back();
+        const auto at = std::ranges::find_if(labels, [&](const auto& label) {
+            const Vec2 away = tip - label.first->centreline.back();
+            return std::abs(away.x) < kWide * norm(tip) && std::abs(away.y) < kHigh * norm(tip);
+        });
+        (at == labels.end() ? labels.emplace_back(&pose, &pose) : *at).second = &pose;
+    }
+    const int decimals = render::decimals_of(poses[1].t - poses[0].t) + 1;
+    for (const auto& [first, last] : labels) {
+        const Vec2 tip = first->centreline.back(), along = sim::unit(first->theta);
+        const std::string begin = last == first ? "" : render::fixed(first->t, decimals) + " … ";
+        to.add({.kind = Sketch::Kind::label,
+                .points = {tip + 0.04 * norm(tip) * along},
+                .markup = begin + render::fixed(last->t, decimals) + " s",
+                .align = along.x < 0 ? render::HAlign::right : render::HAlign::left});
+    }
 }
 
 // Below the drawing, the direction of gravity, a length of 1, 2 or 5 times a power of ten, about a fifth of the beam's,
@@ -114,7 +107,7 @@ void add_scale(const sim::Problem& problem, const std::string& step, render::Bou
 Panel strobe_panel(const std::vector<sim::Pose>& poses, const Subject& subject, render::Bounds& extent) {
     const sim::Problem& problem = subject.problem;
     Sketch sketch;
-    const double hub = std::max(std::abs(problem.hub.radius), render::root_radius(problem));
+    const double hub = std::abs(problem.hub.radius);
     for (std::size_t k = 0; k < poses.size(); ++k) {
         const double share = 0.15 + 0.85 * static_cast<double>(k) / static_cast<double>(poses.size() - 1);
         const render::Color color = render::figure::map_color(share);
@@ -122,7 +115,11 @@ Panel strobe_panel(const std::vector<sim::Pose>& poses, const Subject& subject, 
         if (problem.cam && (k == 0 || k + 1 == poses.size())) add_cam(poses[k], problem, color, sketch, extent);
     }
     extent.add({0, 0}, hub);
-    if (problem.cam && problem.cam->speed != 0) add_rotation(problem.cam->centre, problem, sketch, extent);
+    if (problem.cam && problem.cam->speed != 0) {
+        const double radius = 1.15 * render::cam_reach(problem);
+        sketch.rotation(problem.cam->centre, radius, -0.5 * std::numbers::pi, problem.cam->speed);
+        extent.add(problem.cam->centre, radius);
+    }
     add_speed(poses, sketch, extent);
     sketch.disc({0, 0}, hub, Sketch::kSteel, 0.8);
     sketch.dot({0, 0}, Sketch::kInk, 1.2);

@@ -58,9 +58,9 @@ void add_beam(const sim::Problem& problem, const sim::Table& table, double angle
         theta.add(phi, at[i] * angle_factor);
         rate.add(phi, speed[i] / problem.cam->speed);
     }
+    if (largest_magnitude(rate.y) > kSlow * largest_magnitude(velocity.series.front().y)) return;
     angle.series.push_back(std::move(theta));
-    if (largest_magnitude(rate.y) < kSlow * largest_magnitude(velocity.series.front().y))
-        velocity.series.push_back(std::move(rate));
+    velocity.series.push_back(std::move(rate));
 }
 
 Figure svaj_figure(const Subject& subject, const sim::Result* result, std::size_t table) {
@@ -82,14 +82,15 @@ Figure svaj_figure(const Subject& subject, const sim::Result* result, std::size_
                           .x = {.label = "$φ$ / °", .from = 0, .to = 360, .tight = true},
                           .y = {.label = label},
                           .series = {std::move(curve)},
-                          .legend = result && panels.empty(),
+                          .legend = false,
                           .name = names[panels.size()]});
         if (panels.size() > 1) panels.back().rules = {{.at = 0}};
     }
     if (result) add_beam(problem, result->tables[table], angle.factor, lang, panels[0], panels[1]);
+    const bool has_beam = panels[0].legend = panels[0].series.size() > 1;
     Figure figure{
         .title = kLeverTitle, .panels = lettered(std::move(panels)), .stack = true, .share_x = true, .aspect = 1.7};
-    if (result) figure.title += "; dashed: the hub of the beam in the last whole turn";
+    if (has_beam) figure.title += "; dashed: the hub of the beam in the last whole turn";
     if (result)
         add_caption(figure, {{&problem, result}}, units);
     else

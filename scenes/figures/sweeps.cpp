@@ -120,6 +120,8 @@ figure::Figure sample_plane(const SweptPoints& points, const std::string& x, con
     };
     figure::Panel panel{
         .x = axis(cx, "{}, impact $k$"), .y = axis(cy, "{}, impact $k$ + 1"), .clouds = std::move(clouds), .name = y};
+    if (next)  // impacts that repeat
+        panel.series.push_back({.x = {0, 1}, .y = {0, 1}, .solid = true, .weight = 0.5, .color = rgb(0x777777)});
     if (has_many_values(points)) {
         const auto [least, most] = std::ranges::minmax(points.axis(0).values);
         panel.color_bar = figure::ColorBar{.label = label_of(points.axis(0)), .from = least, .to = most};

@@ -42,7 +42,8 @@ void check_interval(ObjectReader& r, const FigureOutput& figure) {
             return r.reject(key, " = {}: the scene has no cam (\"cam\": null); give it one",
                             in_quotes(name_of(*event)));
     if (first.contact.model == sim::ContactModel::restitution && series.from_event && series.to_event &&
-        series.from_event->kind == Instant::Kind::collision && series.to_event->kind == Instant::Kind::liftoff &&
+        series.from_event->kind == Instant::Kind::collision &&
+        (series.to_event->kind == Instant::Kind::liftoff || series.to_event->kind == Instant::Kind::release) &&
         series.from_event->number == series.to_event->number)
         return r.reject_object("from",
                                ": impulses last no time (contact.model \"restitution\"), so nothing is between "

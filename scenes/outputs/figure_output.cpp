@@ -99,8 +99,9 @@ static void visit_interval(SceneVisitor& v, SeriesKeys& series, const KeyOfFigur
                         list_of_figures_with("from"))
                 .c_str());
     v.value(key("to"), bound_format(series.to, series.to_event, &series.to_last),
-            "Last instant; a first event that does not occur is the end of the scene. By default that end, or in "
-            "\"strobe\" the first impact; \"kymograph\" by default shows the first collision.");
+            "Last instant; a first event, or one after an event \"from\", is the end of the scene where it does not "
+            "occur. By default that end, or in \"strobe\" the first impact; \"kymograph\" by default shows the first "
+            "collision.");
 }
 
 // The keys of the figure "series"; the other figures have some of them.

@@ -111,9 +111,9 @@ FigureOutput with_times_of(FigureOutput how, const sim::Result& motion, double e
     };
     const auto from_event = how.series.from_event, to_event = how.series.to_event;
     const std::optional<Instant> usual = usual_end(how);
-    // A figure of a whole motion that lacks the event at its end ends with the scene.
+    // A figure that begins at an event or ends at a first one ends with the scene if the motion lacks that end.
     std::optional<Instant>& to = how.series.to_event;
-    if (to && to->number == 1 && !how.series.from_event && !find_instant(*to, motion)) to.reset();
+    if (to && (to->number == 1 || from_event) && !find_instant(*to, motion)) to.reset();
     SeriesKeys series = with_times(std::move(how.series), motion);
     if (const FigureType* type = figure_type(how.figure); usual && type->begins && !from_event && series.from == 0)
         series.from = find_instant(*type->begins, motion).value_or(0);

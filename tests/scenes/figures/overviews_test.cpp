@@ -250,7 +250,7 @@ std::vector<render::figure::PageCanvas::Written> instants_on(const render::figur
     return sheet.written;
 }
 
-TEST(Overviews, AStrobeNamesItsEndsAndTheTimeBetweenInstants) {
+TEST(Overviews, AStrobeNamesItsInstantsAndTheTimeBetweenThem) {
     const auto labels = [](const std::string& end) {
         const auto figure = overview_of("strobe", R"(, "to": )" + end);
         std::vector<std::string> out;
@@ -258,8 +258,9 @@ TEST(Overviews, AStrobeNamesItsEndsAndTheTimeBetweenInstants) {
             if (shape.kind == render::figure::Shape::Kind::label) out.push_back(shape.markup);
         return out;
     };
-    EXPECT_THAT(labels("0.25"), ::testing::ElementsAre("$ω$", "0.000 s", "0.250 s", "$g$", HasSubstr("every 31.2")));
-    EXPECT_THAT(labels("0.05"), ::testing::ElementsAre("$ω$", "0.0000 s, 0.0500 s", "$g$", HasSubstr("every 6.25")));
+    EXPECT_THAT(labels("0.25"), ::testing::ElementsAre("$ω$", "0.000 … 0.100 s", "0.150 s", "0.200 s", "0.250 s", "$g$",
+                                                       HasSubstr("every 50")));
+    EXPECT_THAT(labels("0.05"), ::testing::ElementsAre("$ω$", "0.000 … 0.050 s", "$g$", HasSubstr("every 10")));
 }
 
 // Near the top, labels side by side need more room than their height.
@@ -272,7 +273,7 @@ TEST(Overviews, LabelsOfAStrobeKeepApart) {
                 std::string(angle) +
                 R"(}, "time": {"end": 1.4}, "outputs": [{"type": "figure", "figure": "strobe"}]})");
             const auto labels = instants_on(figure, column);
-            EXPECT_EQ(labels.size(), 2u) << angle << ' ' << column;
+            EXPECT_FALSE(labels.empty()) << angle << ' ' << column;
             for (std::size_t i = 0; i < labels.size(); ++i)
                 for (std::size_t k = 0; k < i; ++k)
                     EXPECT_FALSE(labels[i].box.overlaps(labels[k].box))
@@ -280,10 +281,10 @@ TEST(Overviews, LabelsOfAStrobeKeepApart) {
         }
 }
 
-TEST(Overviews, AStrobeShowsNineInstantsAndALength) {
+TEST(Overviews, AStrobeShowsSixInstantsAndALength) {
     const render::figure::Figure figure = overview_of("strobe", "");
     const auto& shapes = figure.panels[0].shapes;
-    EXPECT_EQ(std::ranges::count_if(shapes, [](const auto& s) { return s.points.size() > 2; }), 9);  // beams
+    EXPECT_EQ(std::ranges::count_if(shapes, [](const auto& s) { return s.points.size() > 2; }), 6);  // beams
     EXPECT_THAT(shapes.back().markup, HasSubstr("mm"));
 }
 
@@ -331,7 +332,7 @@ TEST(Overviews, TakeAnIntervalAndNoOtherKeysOfSeries) {
     EXPECT_THAT(testing::read(
                     R"({"contact": {"model": "restitution"}, "outputs": [{"type": "figure", "figure": "collision"}]})")
                     .report(),
-                HasSubstr("nothing is between collision 1 and liftoff 1"));
+                HasSubstr("nothing is between collision 1 and release 1"));
 }
 
 TEST(Overviews, KeysOfOtherFiguresAreRejectedWithTheNamesOfThese) {
