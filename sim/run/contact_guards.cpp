@@ -38,6 +38,7 @@ std::optional<double> first_dip_of_samples(Value&& value, const Instants& time, 
     const double deep = kNegligible * std::fabs(*std::max_element(f, f + last + 1));
     for (int i = 1; i <= last; ++i) {
         if (!(f[i - 1] > 0) || f[i] < 0 || (last > 1 && std::min(f[i - 1], f[i]) > bend)) continue;
+        if (!(time(i - 1) < time(i))) continue;  // a step as short as the rounding of the time
         // The sampled values decide the sign: a second evaluation near zero may round otherwise.
         Guard before = guard(time(i - 1)), after = guard(time(i));
         before.value = f[i - 1];
