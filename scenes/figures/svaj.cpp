@@ -58,9 +58,9 @@ void add_beam(const sim::Problem& problem, const sim::Table& table, double angle
         theta.add(phi, at[i] * angle_factor);
         rate.add(phi, speed[i] / problem.cam->speed);
     }
-    if (largest_magnitude(rate.y) > kSlow * largest_magnitude(velocity.series.front().y)) return;
     angle.series.push_back(std::move(theta));
-    velocity.series.push_back(std::move(rate));
+    if (largest_magnitude(rate.y) < kSlow * largest_magnitude(velocity.series.front().y))
+        velocity.series.push_back(std::move(rate));
 }
 
 Figure svaj_figure(const Subject& subject, const sim::Result* result, std::size_t table) {
