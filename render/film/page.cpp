@@ -252,10 +252,12 @@ std::string html_page(const FilmSetup& setup) {
     add_ends_of_contacts(context, all);
     const Palette& p = context.look.palette;
     const Materials body = materials(p);
+    std::vector<std::string> moments;
+    for (const Color& each : p.moment) moments.push_back(hex(each));
     const std::string colors = fmt::format(
         R"({{"paper":{},"ink":{},"muted":{},"faint":{},"grid":{},"motion":{},"contact":{},"cam":{},"hub":{},"pin":{},"bracket":{},"moment":["{}"]}})",
         css(p.paper), css(p.ink), css(p.muted), css(p.faint), css(p.grid), css(p.motion), css(p.contact), css(body.cam),
-        css(body.housing), css(body.pin), css(body.bracket), fmt::join(p.moment | std::views::transform(hex), "\",\""));
+        css(body.housing), css(body.pin), css(body.bracket), fmt::join(moments, "\",\""));
     const std::string data = fmt::format(
         R"({{"title":{},"factor":{:.9g},"tolerance":{:.9g},"length":{:.9g},"thickness":{:.9g},"hub":{:.9g},"arc":{:.9g},"force":{:.9g},)"
         R"("degrees":{},"period":{:.9g},"colors":{},"cam":{},"impacts":{},{}}})",

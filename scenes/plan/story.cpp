@@ -133,7 +133,7 @@ std::string energy_at_apex(double touch, double apex, const sim::Problem& proble
 // The mechanism, the contact in micrometres, and the force of the collision.
 LayoutNode impact_layout(bool has_force, const Size& size, double text_scale) {
     using enum LayoutNode::Kind;
-    const LayoutNode near = leaf({.kind = PanelKind::mechanism}, 1.9);
+    LayoutNode near = leaf({.kind = PanelKind::mechanism}, 1.9);
     if (!has_force) return near;
     const LayoutNode contact = leaf({.kind = PanelKind::close_up}),
                      force = leaf({.kind = PanelKind::strip,
@@ -147,7 +147,7 @@ LayoutNode impact_layout(bool has_force, const Size& size, double text_scale) {
 
 // The largest force, which many modes change: with their number.
 std::string force_of(const sim::Collision& c, const sim::Problem& problem, Lang lang) {
-    const std::string force = phrase(lang, "largest force {}", quantity(*c.force_peak, "N"));
+    std::string force = phrase(lang, "largest force {}", quantity(*c.force_peak, "N"));
     if (problem.beam.model == sim::ModelKind::rigid) return force;
     return phrase(lang, "{} with {}", force,
                   phrase(lang, problem.beam.modes == 1 ? "{} mode" : "{} modes", problem.beam.modes));
