@@ -11,7 +11,6 @@
 #include <iterator>
 #include <map>
 #include <optional>
-#include <ranges>
 
 #include "render/draw/markup.hpp"
 #include "render/film/mechanism_labels.hpp"

@@ -181,24 +181,23 @@ static std::string add_sticking(const FilmContext& context, const PanelSpec& spe
         spec.channels.front().kind != ChannelKind::friction_force)
         return {};
     const Palette& p = context.look.palette;
+    const double static_coefficient = law->static_coefficient.value_or(law->coefficient);
+    std::vector<double> bound;
     std::vector<figure::Span>& spans = c.panel.spans;
     for (std::size_t i = 0; i < t->size(); ++i) {
-        if (!((*force)[i] > 0)) continue;
         const bool holds = sticks(context.setup->problem, (*force)[i], (*friction)[i]);
+        bound.push_back((holds ? static_coefficient : law->coefficient) * (*force)[i]);
+        if (!((*force)[i] > 0)) continue;
         const std::string name = context.look.translate(holds ? "sticks" : "slips");
         if (i == 0 || spans.empty() || spans.back().to != (*t)[i - 1] || spans.back().label != name)
             spans.push_back({(*t)[i], (*t)[i], name, p.motion.faded(holds ? 0.13 : 0)});
         spans.back().to = (*t)[i];
     }
-    const double static_coefficient = law->static_coefficient.value_or(law->coefficient);
     for (const double sign : {-1, 1}) {
         figure::Series curve{.color = p.muted};
         curve.faint = p.tint(p.muted, 0.25);
         curve.dash = FilmContext::dash_of(1);
-        for (std::size_t i = 0; i < t->size(); ++i) {
-            const bool holds = sticks(context.setup->problem, (*force)[i], (*friction)[i]);
-            curve.add((*t)[i], sign * (holds ? static_coefficient : law->coefficient) * (*force)[i]);
-        }
+        for (std::size_t i = 0; i < t->size(); ++i) curve.add((*t)[i], sign * bound[i]);
         c.panel.series.push_back(std::move(curve));
     }
     return ", " + colored(static_coefficient == law->coefficient ? "±$μF$" : "±$μF$, ±$μ$_{s}$F$", p.muted);

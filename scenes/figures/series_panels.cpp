@@ -188,7 +188,7 @@ class SeriesPanelMaker {
         return curves_++;
     }
 
-    // Of several sums one that is zero throughout is omitted.
+    // A sum that is zero throughout is omitted, unless it is the only one.
     void add_sum(std::size_t i) {
         const SeriesSum& sum = *planned_.curves[i].sum;
         const std::vector<double>& values = rows_[i].values.back();

@@ -82,15 +82,14 @@ Figure svaj_figure(const Subject& subject, const sim::Result* result, std::size_
                           .x = {.label = "$φ$ / °", .from = 0, .to = 360, .tight = true},
                           .y = {.label = label},
                           .series = {std::move(curve)},
-                          .legend = false,
+                          .legend = result && panels.empty(),
                           .name = names[panels.size()]});
         if (panels.size() > 1) panels.back().rules = {{.at = 0}};
     }
     if (result) add_beam(problem, result->tables[table], angle.factor, lang, panels[0], panels[1]);
-    const bool has_beam = panels[0].legend = panels[0].series.size() > 1;
     Figure figure{
         .title = kLeverTitle, .panels = lettered(std::move(panels)), .stack = true, .share_x = true, .aspect = 1.7};
-    if (has_beam) figure.title += "; dashed: the hub of the beam in the last whole turn";
+    if (result) figure.title += "; dashed: the hub of the beam in the last whole turn";
     if (result)
         add_caption(figure, {{&problem, result}}, units);
     else
