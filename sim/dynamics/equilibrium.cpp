@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "sim/base/linear_algebra.hpp"
@@ -20,6 +21,15 @@ constexpr double kRestingLoadStep = 0.5;  // the same on the cam, which a beam b
 constexpr double kLeastDepth = 1e-6;      // of the length: kNegligible of it is the rounding of a gap
 // [rad] of the cam: step of finite differences of fourth order, at which truncation and rounding are equal.
 constexpr double kFollowingDifference = 5e-3;
+
+// Finite differences of fourth and third order over five instants, the first of them `from` steps from their place: 12
+// times the first derivative by the step, and 12 times the second by its square.
+struct Differences {
+    int from;
+    double rate[5], acceleration[5];
+};
+constexpr Differences kCentral{-2, {1, -8, 0, 8, -1}, {-1, 16, -30, 16, -1}};
+constexpr Differences kOneSided{0, {-25, 48, -36, 16, -3}, {35, -104, 114, -56, 11}};
 
 // Static forces of the model at ξ, without contact. They are valid even if `assemble` finds the inertia not positive.
 void static_force(Model& model, const Eigen::VectorXd& xi, Eigen::VectorXd& f) {
@@ -128,9 +138,8 @@ bool soften(const System& given, double load_step, Solve&& solve) {
     return solve(system);
 }
 
-// Solves for `s.xi`, the beam on the cam at time t in equilibrium with gravity, torque, friction and the inertia of the
-// given motion: f + τh + (J_n + r J_t)ᵀN = M ξ̈, gap = −δ(N), or 0 in impulsive contact. False if there is no solution,
-// or none with N >= 0.                                                                                        (S40)
+// Solves for the beam on the cam at time t, in equilibrium with gravity, torque, friction and the inertia of the given
+// motion: f + τh + (J_n + r J_t)ᵀN = M ξ̈, gap = −δ(N), or 0 in impulsive contact. False if there is no solution. (S40)
 bool equilibrium_on_cam(System& system, double t, FollowingState& s) {
     const int n = system.coordinates();
     const Problem& problem = system.problem();
@@ -159,40 +168,63 @@ bool equilibrium_on_cam(System& system, double t, FollowingState& s) {
     };
     const bool found = newton(residual, x, scale, size);
     s.xi = x.head(n);
-    return found && x[n] >= -kNegligible * scale[n];
+    s.pressed = x[n] >= -kNegligible * scale[n];
+    return found;
+}
+
+// The jump of the cam's radius of curvature that the contact is about to pass or has just passed, as the angle through
+// which the cam turns before it; nothing if none is near.
+std::optional<double> near_kink(System& system, const Eigen::VectorXd& xi) {
+    std::vector<double> y(static_cast<std::size_t>(system.size), 0.0);
+    std::copy_n(xi.data(), xi.size(), y.begin());
+    const TurningCam& cam = system.cam();
+    const double alpha = cam.alpha(0, system.contact(0, y.data()).normal);
+    for (const double kink : cam.shape().kinks()) {
+        const double ahead = std::copysign(1.0, system.problem().cam->speed) * std::remainder(kink - alpha, kFullTurn);
+        if (std::fabs(ahead) < 8 * kFollowingDifference) return ahead;
+    }
+    return std::nullopt;
 }
 
 // The start of a beam that follows the turning cam. Equilibria at neighbouring cam angles give the rates, the rates
 // give the inertia forces, and these correct the equilibria. After two corrections the error is of sixth order in the
-// ratio of the cam's speed to the frequencies of beam and contact. On a cam that falls away faster than the beam can
-// follow, the start is the equilibrium without inertia forces, with the rates of following.                   (S40)
+// ratio of the cam's speed to the frequencies of beam and contact. The angles lie on both sides of the start or, where
+// ρ jumps near it, on one. On a cam that falls away faster than the beam can follow, the start is the equilibrium
+// without inertia forces, with the rates of following.                                                        (S40)
 RestingBeam following_beam(System& system, const Eigen::VectorXd& xi) {
-    constexpr int kMiddle = 4;
-    const double dt = kFollowingDifference / std::fabs(system.problem().cam->speed);
+    const std::optional<double> kink = near_kink(system, xi);
+    const Differences& differences = kink ? kOneSided : kCentral;
+    const double dt =
+        (kink.value_or(0) > kNegligible ? -1 : 1) * kFollowingDifference / std::fabs(system.problem().cam->speed);
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(xi.size());
-    std::vector<FollowingState> states(2 * kMiddle + 1, {xi, zero, zero});
-    const FollowingState& start = states[kMiddle];
-    const auto solve = [&](int reach) {  // at the instants −reach…reach
-        for (int k = -reach; k <= reach; ++k)
-            if (!equilibrium_on_cam(system, k * dt, states[static_cast<std::size_t>(kMiddle + k)])) return false;
+    std::vector<FollowingState> states(9, {xi, zero, zero});
+    const std::size_t middle = kink ? 0 : 4;
+    FollowingState& start = states[middle];
+    // The instants that are needed for as many more differences, the start being the first or the middle one.
+    const auto over = [&](std::size_t more, auto&& act) {
+        const std::size_t first = kink ? 0 : middle - 2 * more;
+        for (std::size_t k = first; k <= first + 4 * more; ++k)
+            if (!act(k)) return false;
         return true;
     };
-    const auto differentiate = [&](std::size_t reach) {
-        const std::vector<FollowingState> before = states;
-        for (std::size_t k = kMiddle - reach; k <= kMiddle + reach; ++k) {
-            const Eigen::VectorXd near = before[k + 1].xi + before[k - 1].xi, far = before[k + 2].xi + before[k - 2].xi;
-            states[k].rate =
-                (8 * (before[k + 1].xi - before[k - 1].xi) - (before[k + 2].xi - before[k - 2].xi)) / (12 * dt);
-            states[k].acceleration = (16 * near - far - 30 * before[k].xi) / (12 * dt * dt);
-        }
+    const auto solve = [&](std::size_t k) {
+        return equilibrium_on_cam(system, (static_cast<double>(k) - static_cast<double>(middle)) * dt, states[k]);
     };
-    if (!solve(4)) throw StepFailure("no equilibrium of the beam resting on the turning cam was found");
-    differentiate(2);
+    const auto differentiate = [&](std::size_t k) {
+        states[k].rate = states[k].acceleration = zero;
+        for (std::size_t i = 0; i < 5; ++i) {
+            const Eigen::VectorXd& at = states[k + i + static_cast<std::size_t>(differences.from)].xi;
+            states[k].rate += differences.rate[i] / (12 * dt) * at;
+            states[k].acceleration += differences.acceleration[i] / (12 * dt * dt) * at;
+        }
+        return true;
+    };
+    if (!over(2, solve)) throw StepFailure("no equilibrium of the beam resting on the turning cam was found");
+    over(1, differentiate);
     const FollowingState slow{start.xi, start.rate, zero};
-    if (!solve(2)) return {slow, true};
-    differentiate(0);
-    if (!solve(0)) return {slow, true};
-    return {start, false};
+    if (!over(1, solve)) return {slow, true};
+    differentiate(middle);
+    return solve(middle) && start.pressed ? RestingBeam{start, false} : RestingBeam{slow, true};
 }
 
 // The rigid rod on that side of the cam against which weight and torque press it, with the static penetration.
@@ -231,7 +263,7 @@ RestingBeam resting_beam(const System& given) {
     RestingBeam beam{{rod_on_cam(system), zero, zero}, false};
     const auto rest = [&](System& softer) {
         softer.set_phase(flight);
-        return equilibrium_on_cam(softer, 0, beam.start);
+        return equilibrium_on_cam(softer, 0, beam.start) && beam.start.pressed;
     };
     if (!soften(given, kRestingLoadStep, rest))
         throw StepFailure("no equilibrium of the beam resting on the cam was found");

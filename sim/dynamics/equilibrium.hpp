@@ -18,6 +18,7 @@ HeldBeam held_beam(const System& system, double angle);
 // One instant of a motion in which the beam follows the cam.
 struct FollowingState {
     Eigen::VectorXd xi, rate, acceleration;
+    bool pressed = true;  // N >= 0: the cam need not pull
 };
 
 struct RestingBeam {

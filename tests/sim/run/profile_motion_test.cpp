@@ -114,6 +114,20 @@ TEST(ProfileMotion, AStiffContactFollowsTheCamOverJumpsOfTheCurvature) {
         }
 }
 
+// At the joints of the law θ″ jumps; θ′ is that of the law on both sides.
+TEST(ProfileMotion, ARestingLeverStartsWithTheRateOfTheLawAlsoAtJumpsOfTheCurvature) {
+    for (const double speed : {-4.0, 4.0})
+        for (const double joint : {60.0, 160.0, 200.0, 320.0})
+            for (const double after : {-0.01, 0.0, 0.01}) {
+                Problem p = follower(ContactModel::restitution, speed);
+                for (LawSegment& segment : std::get<LawProfile>(*p.cam->profile).segments)
+                    if (segment.law != MotionLaw::dwell) segment.law = MotionLaw::harmonic;
+                p.cam->phase = -joint * kDegree - after;
+                const double expected = speed * Lever(p).at(-p.cam->phase).motion.velocity;
+                EXPECT_NEAR(series(p, "theta_dot", {0})[0], expected, 2e-7) << speed << " " << joint << " " << after;
+            }
+}
+
 // After thousands of turns the time does not distinguish the instants about a joint at which θ̈ jumps.
 TEST(ProfileMotion, SustainedImpulsesPassTheJointsOfArcsAtLateTimes) {
     Problem p;

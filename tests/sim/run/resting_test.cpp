@@ -57,6 +57,15 @@ TEST(Resting, ForceOfAHeldRodIsThatOfWeightAndInertiaFromTheStart) {
         }
 }
 
+TEST(Resting, ATorqueThatLiftsTheBeamSoonAfterTheStartDoesNotChangeTheStart) {
+    Problem p = riding(ModelKind::rigid, 5, 1);
+    p.contact.model = ContactModel::restitution;
+    const std::vector<double> free = series(p, "theta_dot", {0});
+    p.hub.drive = TorqueTable{{0, 1e-4, 1}, {0, 100, 100}};
+    EXPECT_NEAR(series(p, "theta_dot", {0})[0], free[0], 1e-9 * std::fabs(free[0]));
+    EXPECT_GT(series(p, "gap", {0.01})[0], 0);
+}
+
 TEST(Resting, UnderATorqueWithoutGravityTheForceBalancesTheTorqueAndStaysConstant) {
     for (const ModelKind kind : {ModelKind::first_order, ModelKind::second_order, ModelKind::exact})
         for (const ContactModel contact : {ContactModel::restitution, ContactModel::compliant}) {
