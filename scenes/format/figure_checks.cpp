@@ -41,14 +41,6 @@ void check_interval(ObjectReader& r, const FigureOutput& figure) {
         if (event && event->kind != Instant::Kind::apex && !first.cam)
             return r.reject(key, " = {}: the scene has no cam (\"cam\": null); give it one",
                             in_quotes(name_of(*event)));
-    if (first.contact.model == sim::ContactModel::restitution && series.from_event && series.to_event &&
-        series.from_event->kind == Instant::Kind::collision &&
-        (series.to_event->kind == Instant::Kind::liftoff || series.to_event->kind == Instant::Kind::release) &&
-        series.from_event->number == series.to_event->number)
-        return r.reject_object("from",
-                               ": impulses last no time (contact.model \"restitution\"), so nothing is between "
-                               "{} and {}; set another \"to\"",
-                               name_of(*series.from_event), name_of(*series.to_event));
     if (series.needs_events()) return;
     const double end = series.to.value_or(r.context().scene.end_time);
     if (!(series.from < end))
