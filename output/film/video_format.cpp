@@ -5,9 +5,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "output/files/errors.hpp"
-#include "output/image/raster.hpp"
-
 namespace beamcam::output {
 namespace {
 
@@ -46,22 +43,11 @@ constexpr int kLargestWebpSide = 16383;                                // its fi
 constexpr std::int64_t kLargestPicture = (std::int64_t{1} << 31) - 1;  // av_image_check_size
 constexpr double kFastestGif = 50;                                     // [Hz]
 
-std::string plain(double value) {
-    std::string text = std::to_string(value);
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.back() == '.') text.pop_back();
-    return text;
-}
-
 }  // namespace
 
 const char* name(Codec codec) { return row_of(codec).name; }
 const char* title(Codec codec) { return row_of(codec).title; }
 const char* encoder_name(Codec codec) { return row_of(codec).encoder; }
-std::optional<Codec> codec_named(std::string_view text) {
-    const auto at = std::ranges::find(kEntries, text, [](const CodecRow& e) { return std::string_view(e.name); });
-    return at == kEntries.end() ? std::nullopt : std::optional(at->codec);
-}
 std::optional<Codec> default_codec(std::string_view ending) {
     const Container* file = container(ending);
     return file ? file->codecs.front() : std::nullopt;
@@ -111,9 +97,6 @@ std::string format_problem(std::string_view ending, Codec codec, bool transparen
 
 std::string size_problem(Codec codec, int width, int height) {
     const std::string size = std::to_string(width) + "x" + std::to_string(height);
-    if (std::min(width, height) < kSmallestSide || std::max(width, height) > kLargestSide)
-        return "a film of " + size + " pixels is not possible; both sides must be " + std::to_string(kSmallestSide) +
-               " to " + std::to_string(kLargestSide);
     if (codec == Codec::webp && std::max(width, height) > kLargestWebpSide)
         return "an animated WebP of " + size + " pixels is not possible; both sides must be at most " +
                std::to_string(kLargestWebpSide) + ", or choose another codec";
@@ -129,17 +112,12 @@ std::string size_problem(Codec codec, int width, int height) {
 }
 
 std::string rate_problem(Codec codec, double fps) {
-    if (!(fps >= kSlowestRate && fps <= kFastestRate))
-        return plain(fps) + " frames per second is not possible; use 0.1 to 1000";
-    if (codec == Codec::gif && fps > kFastestGif)
-        return "a GIF counts in hundredths of a second, and players slow down one of more than 50 frames per second; "
-               "use 50, 25 or 20, or a .webp file for " +
-               plain(fps);
-    return {};
+    if (codec != Codec::gif || fps <= kFastestGif) return {};
+    return "a GIF counts in hundredths of a second, and players slow down one of more than 50 frames per second; use "
+           "50, 25 or 20, or a .webp file for a higher rate";
 }
 
 FrameRate frame_rate(double fps) {
-    if (const std::string problem = rate_problem(Codec::h264, fps); !problem.empty()) throw UnsupportedOption(problem);
     // 23.976, 23.98, 29.97, 59.94 …: usual decimals differ from n·1000/1001 by less than 0.005; no integer rate does.
     for (int whole : {24, 30, 48, 60, 72, 90, 96, 100, 120, 144, 240})
         if (std::abs(fps - whole * 1000.0 / 1001) < 0.005) return {whole * 1000, 1001};

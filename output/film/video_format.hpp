@@ -21,7 +21,6 @@ enum class Codec { h264, vp9, prores, ffv1, gif, webp };
 const char* name(Codec codec);          // "h264"
 const char* title(Codec codec);         // "H.264"
 const char* encoder_name(Codec codec);  // FFmpeg's: "libx264"
-std::optional<Codec> codec_named(std::string_view name);
 
 // The default codec of files with this ending (with its dot); nothing: no film has this ending.
 std::optional<Codec> default_codec(std::string_view ending);
@@ -36,8 +35,8 @@ struct FrameRate {
     bool operator==(const FrameRate&) const = default;
 };
 // The broadcast rates n·1000/1001 for their usual decimals, otherwise the nearest fraction with a denominator up to
-// 1000. Throws UnsupportedOption outside 0.1…1000.
-FrameRate frame_rate(double fps);
+// 1000.
+FrameRate frame_rate(double fps);  // 0.1…1000
 
 // How the pictures of a film are encoded.
 struct Encoding {
@@ -63,7 +62,8 @@ struct QualityScale {
 };
 std::optional<QualityScale> quality_scale(Codec codec);  // absent: the codec has no crf
 
-// Why such a film is not possible, with a remedy; empty: it is possible. `ending` with the dot.
+// Why such a film is not possible although its size and rate are within the limits of all films, with a remedy; empty:
+// it is possible. `ending` with the dot.
 std::string format_problem(std::string_view ending, Codec codec, bool transparent);
 std::string quality_problem(Codec codec, std::optional<int> crf);
 std::string size_problem(Codec codec, int width, int height);

@@ -32,17 +32,6 @@ const DescribedKey& described_key(const std::string& type, const std::string& ke
     return *row->key;
 }
 
-// "still, video": the types of outputs that have this key.
-std::string types_with(const std::string& key) {
-    const std::vector<KeyRow> rows = key_rows();
-    std::vector<std::string> types = std::ranges::find(rows, "outputs[].type", &KeyRow::path)->key->words;
-    std::erase_if(types, [&](const std::string& type) {
-        return std::ranges::none_of(
-            rows, [&](const KeyRow& row) { return row.path == "outputs[]." + key && is_of_type(row, type); });
-    });
-    return fmt::format("{}", fmt::join(types, ", "));
-}
-
 }  // namespace
 
 CLI::Option* KeyOptions::explained(CLI::App& app, CLI::Option* option, const char* key, const char* note) const {
@@ -109,9 +98,6 @@ Output read_output(Node output, std::initializer_list<const KeyOptions*> options
     messages.insert(messages.end(), of_reader.begin(), of_reader.end());
     for (const Message& message : messages) {
         const KeyOptions::Option* option = message.place.source == 0 ? nullptr : given[message.place.source - 1];
-        if (option && message.text.starts_with("unknown key"))
-            throw UsageError(fmt::format("{} belongs to outputs of type {}; this one is of type {}", option->name,
-                                         types_with(option->key), output.find("type")->value.text));
         std::string text = message.text;
         if (option && text.starts_with(option->key)) {  // "--low = "abc" …" in place of "panels.0.low = "abc" …"
             std::size_t path = option->key.size();

@@ -27,24 +27,8 @@ struct RenderArguments {
 
 // ---- the output that the file's name asks for ------------------------------------------------------
 
-// The codec of the film: --codec, else that of the scene's own film if it is of the same kind of file, else the usual
-// one.
-void choose_codec(PictureOutput& film, const std::string& ending, const std::string* name) {
-    Encoding& encoding = film.encoding;
-    output::Codec codec = encoding.codec;
-    if (const auto named = name ? output::codec_named(*name) : std::nullopt)  // the reader judges the name
-        codec = *named;
-    else if (ending_of(film.file) != ending)
-        codec = output::default_codec(ending).value_or(codec);
-    if (codec != encoding.codec) {
-        encoding.codec = codec;
-        encoding.crf.reset();  // the codec's usual one
-    }
-    if (encoding.codec == output::Codec::gif && film.span.fps.value() > 50) film.span.fps = {25, 1};
-}
-
 // The output has the keys that it has in common with `film`.
-Output output_for_file(const RenderArguments& args, PictureOutput film) {
+PictureOutput output_for_file(const RenderArguments& args, PictureOutput film) {
     const std::string ending = ending_of(args.file);
     require_ending("-o", args.file,
                    {".mp4", ".webm", ".mov", ".mkv", ".gif", ".webp", ".png", ".pdf", ".svg", ".html"});
@@ -62,13 +46,18 @@ Output output_for_file(const RenderArguments& args, PictureOutput film) {
         throw UsageError(fmt::format(
             "-o {}: name the instant with --at for one picture, or put #### in the name for a sequence", args.file));
     if (film.kind == page) film.span.fps = PictureOutput::of(page).span.fps;
-    if (film.kind == video) choose_codec(film, ending, args.film.value("--codec"));
     return film;
 }
 
 // The output with the values of the options.
-Output with_options(const RenderArguments& args, const Output& base, const Scene& scene) {
-    Node node = to_tree(base);
+Output with_options(const RenderArguments& args, const PictureOutput& base, const Scene& scene) {
+    Node node = to_tree(Output(base));
+    const std::string ending = ending_of(args.file);
+    const std::string* codec = args.film.value("--codec");
+    if (codec ? *codec != name(base.encoding.codec)
+              : ending_of(base.file) != ending)  // another one has its own settings
+        for (const char* key : {"codec", "crf", "preset"}) remove(node, key);
+    if (ending == ".gif" && base.span.fps.value() > 50) remove(node, "fps");
     remove(node, "file");
     add(node, "file", std::filesystem::path(args.file).filename().string());
     if (args.film.value("--speed")) remove(node, "duration");
@@ -118,27 +107,13 @@ void compare_scenes(const RenderArguments& args, Scene& scene, Picture& picture)
     if (!args.title) scene.title = fmt::format("{} motions compared", kCounts[motions - 2]);
 }
 
-// In a scene a poster outside the film is the film's nearest frame, so that films can be shortened; here it is an
-// error.
-void require_poster_inside(const PictureOutput& film, double end_time) {
-    const FrameSpan& span = film.span;
-    const double to = span.to.value_or(end_time);
-    if (!span.poster || span.poster->kind != Instant::Kind::time || span.from_event || span.to_event) return;
-    if (span.poster->t < span.from || span.poster->t > to)
-        throw UsageError(fmt::format("the poster at {:g} s is no frame of a film from {:g} s to {:g} s", span.poster->t,
-                                     span.from, to));
-}
-
 void act(const RenderArguments& args) {
     Common with_title = args.common;
     if (args.title) with_title.overrides.push_back("title=" + to_text(Node(*args.title)));
     Scene scene = load_scene(args.scene, with_title);
     PictureOutput film = film_template(scene);
     compare_scenes(args, scene, film);
-    Output output = with_options(args, output_for_file(args, std::move(film)), scene);
-    if (const auto* video = picture_of(output, PictureOutput::Kind::video))
-        require_poster_inside(*video, scene.end_time);
-    scene.set_outputs({std::move(output)});
+    scene.set_outputs({with_options(args, output_for_file(args, std::move(film)), scene)});
     run_or_plan({&scene, 1}, run_options(args.common, ""), args.common);
 }
 

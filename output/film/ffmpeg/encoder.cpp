@@ -31,25 +31,13 @@ void add_options(AVDictionary** to, const OptionList& options) {
 
 // FFmpeg's settings of an encoder and its container.
 struct EncoderSettings {
-    const char* container = "";
     const char* pixel_format = "";
     PixelLayout layout = PixelLayout::yuv420;  // of that pixel format
     OptionList encoder_options = {}, container_options = {};
 };
 
-// FFmpeg's name of the muxer.
-const char* container_of(std::string_view ending) {
-    if (ending == ".webm") return "webm";
-    if (ending == ".mov") return "mov";
-    if (ending == ".mkv") return "matroska";
-    if (ending == ".gif") return "gif";
-    if (ending == ".webp") return "webp";
-    return "mp4";
-}
-
 EncoderSettings settings_of(const VideoOptions& o, const std::string& ending) {
     EncoderSettings s;
-    s.container = container_of(ending);
     const auto pixels = [&s](const char* format, PixelLayout layout) { s.pixel_format = format, s.layout = layout; };
     const std::string crf = std::to_string(o.crf.value_or(quality_scale(o.codec).value_or(QualityScale{}).usual));
     switch (o.codec) {
@@ -95,9 +83,9 @@ EncoderSettings settings_of(const VideoOptions& o, const std::string& ending) {
 // A film that is being written: a container with one stream of pictures.
 class OutputFile {
   public:
-    OutputFile(const std::filesystem::path& file, std::filesystem::path named, const char* container)
-        : named_(std::move(named)) {
-        const int code = avformat_alloc_output_context2(&format_, nullptr, container, url_of(file).c_str());
+    OutputFile(const std::filesystem::path& file, std::filesystem::path named) : named_(std::move(named)) {
+        const AVOutputFormat* container = av_guess_format(nullptr, named_.c_str(), nullptr);  // by the ending
+        const int code = avformat_alloc_output_context2(&format_, container, nullptr, url_of(file).c_str());
         if (code < 0) fail("setting up the film", code);
         stream_ = avformat_new_stream(format_, nullptr);
         if (stream_ == nullptr) {
@@ -199,7 +187,7 @@ class FfmpegEncoder : public Encoder {
         : options_(options),
           settings_(settings_of(options, named.extension().string())),
           encoder_(encoder_of(options.codec)),
-          file_(file, named, settings_.container) {
+          file_(file, named) {
         describe_pictures();
         open_codec();
         open_file();

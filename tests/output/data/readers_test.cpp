@@ -5,11 +5,11 @@
 #include <fstream>
 
 #include "output/files/atomic_file.hpp"
-#include "output/film/video.hpp"
 #include "output/film/video_library.hpp"
 #include "output/image/png.hpp"
 #include "output/image/png_reader.hpp"
 #include "output/image/raster.hpp"
+#include "tests/output/film/film.hpp"
 #include "tests/output/scratch.hpp"
 
 namespace beamcam::output {
@@ -29,7 +29,7 @@ void make_film(const std::filesystem::path& file, Codec codec = Codec::h264) {
     options.height = 48;
     options.preset = "ultrafast";
     options.metadata = {{"beamcam-scene", "{}"}};
-    VideoWriter film(file, options);
+    Film film(file, options);
     for (int k = 0; k < 40; ++k) {
         render::Image image = pattern(64, 48, true);
         for (std::uint32_t& pixel : image.pixels)

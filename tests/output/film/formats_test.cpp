@@ -4,7 +4,7 @@
 #include "output/files/atomic_file.hpp"
 #include "output/film/palette.hpp"
 #include "output/film/pixel_layout.hpp"
-#include "output/film/video.hpp"
+#include "tests/output/film/film.hpp"
 #include "tests/output/scratch.hpp"
 
 namespace beamcam::output {
@@ -48,7 +48,7 @@ TEST_P(Formats, KeepColoursTimesAndTransparency) {
     Scratch scratch;
     const auto file = scratch / (std::string("a") + kind.ending);
     {
-        VideoWriter film(file, options_of(kind, width, height));
+        Film film(file, options_of(kind, width, height));
         for (int i = 0; i < 5; ++i) {
             render::Image image = halves(kind, width, height);
             for (int y = 0; y < 8; ++y)  // something moves
@@ -94,7 +94,7 @@ TEST_P(Formats, TheSamePicturesGiveTheSameBytes) {
     const FormatCase kind = GetParam();
     Scratch scratch;
     for (const char* each : {"a", "b"}) {
-        VideoWriter film(scratch / (each + std::string(kind.ending)), options_of(kind, 96, 64));
+        Film film(scratch / (each + std::string(kind.ending)), options_of(kind, 96, 64));
         for (int i = 0; i < 3; ++i) film.write(halves(kind, 96, 64));
         film.finish();
     }
