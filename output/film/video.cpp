@@ -40,7 +40,6 @@ struct VideoWriter::Impl {
     VideoOptions options;
     std::optional<PaletteTable> table;  // of a GIF
     std::unique_ptr<Encoder> encoder;   // used by the worker until `stop`, except to make frames
-    std::unique_ptr<VideoInput> own;    // of `write`
 
     mutable std::mutex mutex;  // guards the members below
     std::condition_variable changed;
@@ -105,9 +104,7 @@ struct VideoWriter::Impl {
     void work() {
         std::unique_lock lock(mutex);
         for (;;) {
-            const Clock::time_point idle = Clock::now();
             changed.wait(lock, [this] { return closing || !queue.empty(); });
-            cost.idle_seconds += seconds_since(idle);
             if (abandoned || queue.empty()) return;
             const auto [slot, again] = queue.front();
             if (again && waiting + 1 < longest_hold) {
@@ -227,14 +224,6 @@ VideoWriter::VideoWriter(const FileTarget& file, const VideoOptions& options)
     : impl_(std::make_unique<Impl>(file, options)) {}
 
 VideoWriter::~VideoWriter() = default;
-
-void VideoWriter::write(const render::Image& image) {
-    if (!impl_->own) impl_->own = std::make_unique<VideoInput>(*this);
-    render::DirtyTiles all(impl_->options.width, impl_->options.height);
-    all.add_all();
-    impl_->own->convert(image, all);
-    impl_->own->send();
-}
 
 void VideoWriter::repeat() {
     Impl::Slot* last = impl_->last();

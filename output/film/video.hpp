@@ -26,7 +26,6 @@ struct VideoStatistics {
     long held = 0;               // not encoded: the previous frame is shown longer
     double convert_seconds = 0;  // colour conversion, summed over the drawing threads
     double encode_seconds = 0;   // encoding, in the writer's thread
-    double idle_seconds = 0;     // of the writer's thread, waiting for pictures
 };
 
 class VideoWriter {
@@ -38,9 +37,6 @@ class VideoWriter {
     VideoWriter(const VideoWriter&) = delete;
     VideoWriter& operator=(const VideoWriter&) = delete;
 
-    // Adds a picture; waits if the encoder is a few pictures behind. Transparent pixels show over black unless the film
-    // is transparent.
-    void write(const render::Image& image);
     // Shows the last picture once more without converting it again; with a variable rate, also without encoding it.
     void repeat();
     // Encodes the waiting pictures and completes the file.
@@ -60,7 +56,7 @@ class VideoInput {
   public:
     explicit VideoInput(VideoWriter& film);  // the film must outlive it
     // Waits while all frames of this input are in use. `changed`: tiles that may differ from the last picture that this
-    // input converted.
+    // input converted. Transparent pixels show over black unless the film is transparent.
     void convert(const render::Image& image, const render::DirtyTiles& changed);
     // Adds the converted picture to the film.
     void send();

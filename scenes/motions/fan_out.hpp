@@ -32,16 +32,10 @@ int thread_count(int requested);
 // Executes one task. Created in its thread, so that it can own data of the thread.
 using Worker = std::function<void(long)>;
 
-// The number of threads: `first` from the beginning, and one more whenever `more` returns true, up to `most`. Threads
-// call `more` concurrently, after each task.
-struct ThreadCounts {
-    int first = 1, most = 1;
-    std::function<bool()> more = {};
-};
-
-// Executes the tasks 0 … count−1; the calling thread is the first one. The first exception, also that of an
-// interruption, closes the gate, ends the work and is rethrown here. Returns the number of threads.
-int fan_out(long count, const ThreadCounts& counts, const std::function<Worker()>& make_worker, OrderedGate& gate);
+// Executes the tasks 0 … count−1 on at most this number of threads; the calling thread is the first one. The first
+// exception, also that of an interruption, closes the gate, ends the work and is rethrown here. Returns the number of
+// threads.
+int fan_out(long count, int threads, const std::function<Worker()>& make_worker, OrderedGate& gate);
 // All threads share one worker; 0 means one thread for each core.
 void fan_out(std::size_t count, int threads, const std::function<void(std::size_t)>& work);
 

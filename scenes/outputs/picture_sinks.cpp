@@ -118,7 +118,7 @@ void draw(const PlannedPictures& p, const render::Film& film, PictureSink& sink,
             context.progress.reach(sink.done(++put));
         };
     };
-    const ThreadCounts threads = sink.threads(thread_count(context.options.threads));
+    const int threads = sink.threads(thread_count(context.options.threads));
     context.times.threads = std::max(context.times.threads, fan_out(count, threads, make_worker, gate));
     stop_if_interrupted();
     sink.finish();

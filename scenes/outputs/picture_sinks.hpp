@@ -24,7 +24,7 @@ class PictureSink {
     virtual Input input(OrderedGate& gate) = 0;
     // True: picture k equals the previous one and was repeated without drawing.
     virtual bool repeat(long, const render::Film&, OrderedGate&) { return false; }
-    virtual ThreadCounts threads(int most) const { return {most, most}; }
+    virtual int threads(int most) const { return most; }
     // Number of completed pictures, when `put` have been delivered.
     virtual double done(long put) const { return static_cast<double>(put); }
     // Called after the last picture.

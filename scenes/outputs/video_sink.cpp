@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <mutex>
 
 #include "output/files/atomic_file.hpp"
 #include "output/film/palette.hpp"
@@ -33,35 +32,6 @@ output::VideoOptions options_of(const PlannedPictures& p, render::Film& film, co
     return options;
 }
 
-// Decides whether another drawing thread helps, because the encoder waits for pictures. An unnecessary thread costs
-// time: it has to draw every change since its own last picture.
-class EncoderBacklog {
-  public:
-    explicit EncoderBacklog(const output::VideoWriter& film) : film_(film) {}  // `film` must outlive this
-
-    // True if the encoder was idle for most of the time since the last call. Several threads call this.
-    bool operator()() {
-        const std::lock_guard lock(mutex_);
-        const output::VideoStatistics now = film_.statistics();
-        if (now.frames < (asked_ == 0 ? kFirst : asked_ + kWindow)) return false;
-        const Clock::time_point time = Clock::now();
-        const double passed = std::chrono::duration<double>(time - then_).count(), idle = now.idle_seconds - idle_;
-        const bool first = asked_ == 0;
-        asked_ = now.frames, idle_ = now.idle_seconds, then_ = time;
-        return !first && idle > 0.5 * passed;
-    }
-
-  private:
-    // The encoder buffers its first pictures for its lookahead; after them the window of observation.
-    static constexpr long kFirst = 48, kWindow = 16;
-
-    const output::VideoWriter& film_;
-    std::mutex mutex_;
-    long asked_ = 0;   // pictures encoded at the last evaluation
-    double idle_ = 0;  // idle time until then [s]
-    Clock::time_point then_;
-};
-
 class VideoSink final : public PictureSink {
   public:
     VideoSink(const PlannedPictures& p, render::Film& film, const SinkFiles& to)
@@ -89,12 +59,11 @@ class VideoSink final : public PictureSink {
         gate.pass(k, [&] { video_.repeat(); });
         return true;
     }
-    // The encoder has its own threads; a few drawing threads keep it busy.
-    ThreadCounts threads(int most) const override {
-        if (p_.view.style == render::Style::solid) return {most, most};
-        const int share = p_.view.style == render::Style::flat ? 4 : 2;
-        return {std::max(1, most / share), most,
-                [backlog = std::make_shared<EncoderBacklog>(video_)] { return (*backlog)(); }};
+    // The encoder has its own threads; a few drawing threads keep it busy. Another one costs time: it has to draw every
+    // change since its own last picture.
+    int threads(int most) const override {
+        if (p_.view.style == render::Style::solid) return most;
+        return std::max(1, most / (p_.view.style == render::Style::flat ? 4 : 2));
     }
     double done(long) const override {
         const output::VideoStatistics now = video_.statistics();
