@@ -65,7 +65,8 @@ Color ink_on_disc(const MechanismScene& s) {
 // On the front of the disc.
 void draw_disc_marks(const MechanismScene& s, const Trace& trace) {
     const DiscShape& d = *s.shape.disc;
-    const double inset = std::min(7 * s.at.unit, 0.1 * d.radius), n = static_cast<double>(trace.rim.size());
+    const double inset = std::min({7 * s.at.unit, 0.1 * d.radius, 0.5 * d.sharpest}),
+                 n = static_cast<double>(trace.rim.size());
     const auto piece = [&](std::size_t i) {
         const double share = (static_cast<double>(i) + 0.5) / n, wide = 1.7 / n;
         s.canvas.move_to(s.on_disc(d.rim(share - wide, inset)));

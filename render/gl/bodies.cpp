@@ -107,7 +107,7 @@ Prism Bodies::cam() const {
         p.axis = axis_, p.turned = true;
     }
     p.back = -kDiscDepth * stage_.wide, p.front = -p.back;
-    p.chamfer = std::min(3 * stage_.unit, 0.05 * d.radius);
+    p.chamfer = std::min({3 * stage_.unit, 0.05 * d.radius, 0.5 * d.sharpest});
     return p;
 }
 
@@ -136,7 +136,7 @@ void Bodies::add_cam(BodyMesh& mesh) const {
     const DiscShape& d = *shape_.disc;
     const double u = stage_.unit;
     Prism track = cam(), web = track;
-    const double rim = std::min(11 * u, 0.16 * d.radius);
+    const double rim = std::min({11 * u, 0.16 * d.radius, 0.5 * d.sharpest});
     for (std::size_t i = 0; i < web.outline.size(); ++i) web.outline[i] = web.outline[i] - web.outward[i] * rim;
     track.band = rim + 2, web.back = web.front, web.chamfer = std::min(2 * u, track.chamfer);
     const Prism bearing = round(axis_, d.bore, track.front, track.front + 4 * u, 2);

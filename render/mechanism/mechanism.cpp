@@ -17,6 +17,7 @@ DiscShape disc_shape(const sim::Problem& problem, const sim::Pose& pose, const C
     disc.axis = camera.to_pixels(pose.cam_centre);
     disc.centre = outline->is_disc() ? camera.to_pixels(pose.disc_centre) : disc.axis;
     disc.radius = (outline->is_disc() ? problem.cam->radius : outline->largest_reach()) * camera.scale;
+    disc.sharpest = outline->least_radius() * camera.scale;
     disc.angle = pose.cam_angle;
     // The bore stays inside the cam.
     const double marks = mark_unit(problem, camera, unit);
@@ -45,7 +46,7 @@ void outline_path(Canvas& canvas, const DiscShape& disc, double inset) {
 
 // The fill ends under the middle of the outline, so that it is not visible at its edges.
 void draw_disc(Canvas& canvas, const DiscShape& disc, double unit, const Palette& p) {
-    const double rim = 2 * unit, bore = 1.6 * unit;
+    const double rim = std::min(2 * unit, disc.sharpest), bore = 1.6 * unit;
     outline_path(canvas, disc, rim / 2);
     canvas.move_to(disc.axis + Vec2{disc.bore, 0});
     canvas.arc(disc.axis, disc.bore, 0, 2 * std::numbers::pi);  // against the circle: it is cut out

@@ -1,6 +1,7 @@
 // The shapes of the mechanism in pixels, used by all styles, and their flat drawing.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -20,6 +21,8 @@ struct DiscShape {
     double angle = 0;   // of the mark, counter-clockwise [rad]
     Vec2 mark;          // centre of the drilled mark near the rim, on the ray C→B [px]
     double mark_radius = 0;
+    // Smallest radius of curvature; lines along the edge are at most half of it inside [px].
+    double sharpest = std::numeric_limits<double>::infinity();
     // Of a cam with a profile: points at equal distances along it from where contact_s is 0, and the outward normals.
     std::vector<Vec2> outline = {}, outward = {};  // [px], counter-clockwise in the fixed axes; of length 1, y down
     bool operator==(const DiscShape&) const = default;
