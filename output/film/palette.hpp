@@ -1,16 +1,14 @@
 // A palette of 256 colours for a film, and the conversion of pixels to it.
 //
-// The colours are computed once, from a few frames, so that the film does not flicker: by median cut of a histogram
-// with 5 bits per channel, in which rare colours weigh more than their area, then by Lloyd's iteration. For the
-// conversion, each of 64³ cells of the colour cube lists the few colours that can be nearest in it. Transparent pixels
-// show over white.
+// The colours are computed once, from a few frames, so that the film does not flicker: by median cut of all colours, in
+// which small areas weigh more, then by Lloyd's iteration. For the conversion, each of 64³ cells of the
+// colour cube lists the few colours that can be nearest in it. Transparent pixels show over white.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "render/draw/dirty_tiles.hpp"
@@ -20,19 +18,13 @@ namespace beamcam::output {
 
 class PaletteMaker {
   public:
-    PaletteMaker();
     void add(const render::Image& image);
     std::vector<std::uint32_t> colors() const;  // 0xffRRGGBB, at most 256; exact colours of large flat areas
 
   private:
-    struct Cell {
-        double count = 0, r = 0, g = 0, b = 0;
-    };
-    std::vector<std::uint32_t> frequent() const;
     void refine(std::vector<std::uint32_t>& colors, std::size_t fixed) const;
-    std::vector<Cell> cells_;                               // 32³
-    std::map<std::uint32_t, std::uint64_t> frequent_;       // counts of the colours of flat areas
-    std::unordered_map<std::uint32_t, std::uint64_t> all_;  // counts of all colours
+    std::map<std::uint32_t, std::uint64_t> counts_;  // of all colours, over white
+    std::uint64_t pixels_ = 0;
 };
 
 class PaletteTable {
