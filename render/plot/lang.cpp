@@ -113,7 +113,6 @@ constexpr Phrase kPhrases[] = {
     {"restitution", "恢复系数"},
     {"impacts", "冲击"},
     {"next collision", "下一次碰撞"},
-    {"every {}", "每隔 {}"},
     {"displacement", "位移"},
     {"velocity", "速度"},
     {"windows of {}; dashed: natural frequencies", "窗长 {}；虚线：固有频率"},
@@ -154,6 +153,7 @@ constexpr Phrase kPhrases[] = {
     {"√ colours", "√ 色标"},
     {"target", "目标"},
     {"unknown", "未知"},
+    {"$λ_1$ without a mark: −∞", "$λ_1$ 无标记处为 −∞"},
     {"unstable", "不稳定"},
     // channels
     {"Time", "时间"},

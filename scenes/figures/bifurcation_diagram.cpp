@@ -77,6 +77,7 @@ std::vector<figure::Cloud> clouds_of_starts(const SweptPoints& points) {
 // Samples and exponents as clouds, one for each start that is distinguished.
 struct Dots {
     std::vector<figure::Cloud> samples, exponents;
+    bool merging = false;  // an exponent is −∞
 };
 Dots dots_of(const SweptPoints& points, std::size_t column) {
     const std::size_t width = points.data.columns.size();
@@ -87,6 +88,7 @@ Dots dots_of(const SweptPoints& points, std::size_t column) {
         const std::size_t cloud = out.samples.size() > 1 ? k % points.seeds() : 0;
         const double at = points.value(k);
         if (std::isfinite(p.exponent)) out.exponents[cloud].add(at, p.exponent);
+        out.merging = out.merging || p.exponent < -std::numeric_limits<double>::max();
         if (!has_section(kind_of(p))) continue;
         for (std::size_t i = column; i < p.samples.size(); i += width)
             out.samples[cloud].add(at, drawn(points, column, p.samples[i]));
@@ -152,6 +154,7 @@ figure::Figure bifurcation(const SweptPoints& points, const FigureOutput& how) {
     figure::Panel strip = class_strip(points);
     out.panels = {samples_panel(points, column, std::move(dots.samples), strip.swatches)};
     if (known) out.panels.push_back(exponents_panel(std::move(dots.exponents)));
+    if (known && dots.merging) out.panels.back().title = phrase(points.lang, "$λ_1$ without a mark: −∞");
     out.panels.push_back(std::move(strip));
     const std::vector<double> edges = out.panels.back().cells[0].x;
     for (figure::Panel& each : out.panels)

@@ -141,6 +141,7 @@ class CamDrawing {
     void draw_sharpest_place() {
         const double alpha = summary_.rho_min_normal;
         const sim::CamPoint p = shape_.at(alpha);
+        if (p.radius * kPointsPerMetre < 3 * kLetters) return;  // without room; the number is below the drawing
         const Vec2 n = sim::unit(alpha), touched = p.position(alpha), centre = touched - p.radius * n;
         arrow(at(centre), at(touched));
         to_->circle(at(centre), points(0.4));
@@ -173,21 +174,23 @@ class CamDrawing {
         }
     }
 
-    // The place where the straight lever leaves the cam at its jump speed; the speed is in the last line.
+    // The place where the straight rigid lever leaves the cam at its jump speed; the speed is in the last line.
     void draw_jump() {
         if (!summary_.jump || !(summary_.jump->speed > 0)) return;
         to_->circle(at(place(lever_.at(summary_.jump->phi).alpha)), points(0.7));
         to_->fill(kBlack);
+        const double rpm = summary_.jump->speed * 30 / std::numbers::pi;
         label({kMargin, at({0, bounds_.y0}).y + 6.2 * kLetters},
-              fmt::format("jump at the dot: {:.4g} rpm", summary_.jump->speed * 30 / std::numbers::pi),
+              fmt::format("a rigid lever jumps at the dot: {:.{}f} rpm", rpm, rpm < 1000 ? 1 : 0),
               render::HAlign::left);
     }
 
     void draw_rotation() {
-        constexpr double kFrom = 1.9, kTo = 2.8;  // between the centre lines and the diameter [rad]
         if (speed_ == 0) return;
-        const double radius = 0.5 * base_ * kPointsPerMetre, end = speed_ > 0 ? kFrom : kTo;
-        to_->arc(at({0, 0}), radius, kFrom, kTo);
+        // To the right of the centre, on the side away from the lever [rad].
+        const double from = lever_.side() > 0 ? -1.4 : 0.5, to = from + 0.9;
+        const double radius = 0.5 * base_ * kPointsPerMetre, end = speed_ > 0 ? from : to;
+        to_->arc(at({0, 0}), radius, from, to);
         to_->stroke({kBlack, kThin, {}, render::Cap::butt});
         const Vec2 tip = at({0, 0}) + radius * Vec2{std::cos(end), -std::sin(end)};
         const Vec2 along = (speed_ > 0 ? 1 : -1) * Vec2{std::sin(end), std::cos(end)};
@@ -216,10 +219,10 @@ class CamDrawing {
             const double side = across.y > 0 ? -1 : 1;  // above the line
             label(0.5 * (o + c) + 1.6 * side * kLetters * across, millimetres(norm(pivot_)));
         }
-        label(
-            {kMargin, low + 1.6 * kLetters},
-            fmt::format("1:1, mm; ρ {} … {}", millimetres(shape_.least_radius()), millimetres(shape_.largest_radius())),
-            render::HAlign::left);
+        const std::string radii = shape_.is_disc() ? "e " + millimetres(shape_.largest_slope())
+                                                   : fmt::format("ρ {} … {}", millimetres(shape_.least_radius()),
+                                                                 millimetres(shape_.largest_radius()));
+        label({kMargin, low + 1.6 * kLetters}, "1:1, mm; " + radii, render::HAlign::left);
     }
 
     const sim::Lever& lever_;

@@ -181,7 +181,6 @@ void add_caption(render::figure::Figure& figure, const std::vector<sim::Problem>
     std::vector<const sim::Problem*> all;
     for (const sim::Problem& problem : problems) all.push_back(&problem);
     figure.caption = caption_of(all, units);
-    figure.accuracy = "Nothing is integrated for this figure.";
 }
 
 std::string title_with_panels(const std::string& title, const std::vector<render::figure::Panel>& panels) {
@@ -193,7 +192,10 @@ std::string title_with_panels(const std::string& title, const std::vector<render
 }
 
 std::string whole_caption(const render::figure::Figure& figure) {
-    return fmt::format("{}. {}{}{}", figure.title, figure.caption, figure.caption.empty() ? "" : " ", figure.accuracy);
+    std::string text = figure.title + ".";
+    for (const std::string& sentence : {figure.caption, figure.accuracy})
+        if (!sentence.empty()) text += " " + sentence;
+    return text;
 }
 
 // The paper does not print g; 9.81 m/s² reproduces its 0.37 s.

@@ -133,7 +133,9 @@ figure::Figure key_map(const SweptPoints& points, const FigureOutput& how) {
     for (std::uint64_t k = 0; k < points.data.points(); k += points.seeds()) {
         if (!points.data.has(k)) continue;
         const std::uint64_t cell = k / points.seeds(), width = across.values.size();
-        entries.push_back(points.data.read(k));
+        output::StoredPoint p = points.data.read(k);
+        if (!p.failure.empty()) continue;  // its cell stays white
+        entries.push_back(std::move(p));
         entries.back().point = row[cell / width] * width + column[cell % width];
     }
     if (value == "class" && how.figure == "basins")

@@ -1,5 +1,6 @@
 // The beam at several instants and the cam at both ends, in lines.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -58,32 +59,35 @@ void add_speed(const std::vector<sim::Pose>& poses, Sketch& to, render::Bounds& 
     extent.add(tip + way);
 }
 
-// The instants beyond the tips; of beams that are close to each other the first and the last one.
+// The instants beyond the tips, together those of beams that are close to each other.
 void label_instants(const std::vector<sim::Pose>& poses, Sketch& to) {
     constexpr double kWide = 0.3, kHigh = 0.06;  // of a label, in lengths of the beam
-    std::vector<std::pair<const sim::Pose*, const sim::Pose*>> labels;
+    std::vector<std::vector<const sim::Pose*>> labels;
     for (const sim::Pose& pose : poses) {
         const Vec2 tip = pose.centreline.back();
         const auto at = std::ranges::find_if(labels, [&](const auto& label) {
-            const Vec2 away = tip - label.first->centreline.back();
+            const Vec2 away = tip - label.front()->centreline.back();
             return std::abs(away.x) < kWide * norm(tip) && std::abs(away.y) < kHigh * norm(tip);
         });
-        (at == labels.end() ? labels.emplace_back(&pose, &pose) : *at).second = &pose;
+        (at == labels.end() ? labels.emplace_back() : *at).push_back(&pose);
     }
     const int decimals = render::decimals_of(poses[1].t - poses[0].t) + 1;
-    for (const auto& [first, last] : labels) {
-        const Vec2 tip = first->centreline.back(), along = sim::unit(first->theta);
-        const std::string begin = last == first ? "" : render::fixed(first->t, decimals) + " … ";
+    for (const auto& label : labels) {
+        const Vec2 tip = label.front()->centreline.back(), along = sim::unit(label.front()->theta);
+        std::vector<std::string> instants;
+        for (const sim::Pose* pose : label) instants.push_back(render::fixed(pose->t, decimals));
+        const bool successive = instants.size() > 2 && label.front() + instants.size() - 1 == label.back();
+        if (successive) instants = {instants.front() + " … " + instants.back()};
         to.add({.kind = Sketch::Kind::label,
                 .points = {tip + 0.04 * norm(tip) * along},
-                .markup = begin + render::fixed(last->t, decimals) + " s",
+                .markup = fmt::format("{} s", fmt::join(instants, ", ")),
                 .align = along.x < 0 ? render::HAlign::right : render::HAlign::left});
     }
 }
 
-// Below the drawing, the direction of gravity, a length of 1, 2 or 5 times a power of ten, about a fifth of the beam's,
-// and `step`, the time between instants [s].
-void add_scale(const sim::Problem& problem, const std::string& step, render::Bounds& extent, Sketch& to) {
+// Below the drawing, the direction of gravity, and a length of 1, 2 or 5 times a power of ten, about a fifth of the
+// beam's.
+void add_scale(const sim::Problem& problem, render::Bounds& extent, Sketch& to) {
     const double length = render::round_down_125(problem.beam.length / 5);
     const double y = extent.y0 - 0.14 * problem.beam.length, tick = 0.012 * problem.beam.length;
     Vec2 a{extent.x0, y};
@@ -99,13 +103,12 @@ void add_scale(const sim::Problem& problem, const std::string& step, render::Bou
     for (const Vec2 end : {a, b}) to.line(end - Vec2{0, tick}, end + Vec2{0, tick}, Sketch::kInk, 0.8);
     to.add({.kind = Sketch::Kind::label,
             .points = {b},
-            .markup = render::quantity(length, "m") + "\u2003" + step,
+            .markup = render::quantity(length, "m"),
             .shift = {0.4, 0},
             .align = render::HAlign::left});
 }
 
-Panel strobe_panel(const std::vector<sim::Pose>& poses, const Subject& subject, render::Bounds& extent) {
-    const sim::Problem& problem = subject.problem;
+Panel strobe_panel(const std::vector<sim::Pose>& poses, const sim::Problem& problem, render::Bounds& extent) {
     Sketch sketch;
     const double hub = std::abs(problem.hub.radius);
     for (std::size_t k = 0; k < poses.size(); ++k) {
@@ -125,8 +128,7 @@ Panel strobe_panel(const std::vector<sim::Pose>& poses, const Subject& subject, 
     sketch.dot({0, 0}, Sketch::kInk, 1.2);
     if (problem.cam) sketch.dot(problem.cam->centre);
     label_instants(poses, sketch);
-    const std::string step = render::quantity(poses[1].t - poses[0].t, "s");
-    add_scale(problem, phrase(subject.lang, "every {}", step), extent, sketch);
+    add_scale(problem, extent, sketch);
     return {.shapes = sketch.take()};
 }
 
@@ -136,7 +138,7 @@ FigureDrawing prepare_strobe(const Scene& scene, const FigureOutput& how, Motion
     requests.request(shown.motion).poses[shown.poses].times.back() *= 1 - 1e-9;
     const auto draw = [=](const Subject& subject, const sim::Result& result) -> Figure {
         render::Bounds extent;
-        Panel panel = strobe_panel(result.poses[shown.poses], subject, extent);
+        Panel panel = strobe_panel(result.poses[shown.poses], subject.problem, extent);
         // The shapes with a margin and room for labels.
         const double aspect =
             std::clamp(0.1 + 0.85 * (extent.y1 - extent.y0) / std::max(extent.x1 - extent.x0, 1e-12), 0.3, 1.1);

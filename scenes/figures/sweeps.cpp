@@ -56,11 +56,16 @@ std::string sampling_text(const sim::Sampling& sampling) {
                        text(sampling.transient));
 }
 
-// "; classes: periodic, chaotic" of those in a legend.
+// "; classes: periodic, chaotic" of those in a legend, and what a white cell means.
 std::string classes_text(const figure::Figure& of) {
     std::vector<std::string> names;
-    for (const figure::Panel& panel : of.panels)
+    bool white = false;
+    for (const figure::Panel& panel : of.panels) {
         for (const figure::Swatch& each : panel.swatches) names.push_back(each.label);
+        for (const figure::Cells& cells : panel.cells)
+            white = white || std::ranges::find(cells.colors, render::Color{0, 0, 0, 0}) != cells.colors.end();
+    }
+    if (white && !names.empty()) names.push_back("white where there is no motion");
     return names.empty() ? "" : fmt::format("; classes: {}", fmt::join(names, ", "));
 }
 

@@ -25,7 +25,7 @@ constexpr ClassLook kClasses[] = {
     {AttractorClass::rest, 0xF2F2F2},      {AttractorClass::following, 0xD0D0D0},
     {AttractorClass::periodic, 0x0072B2},  {AttractorClass::chaotic, 0xD55E00},
     {AttractorClass::aperiodic, 0x009E73}, {AttractorClass::over_the_top, 0x404040},
-    {AttractorClass::unsettled, 0xF0E442},
+    {AttractorClass::unsettled, 0xF7EEA8},
 };
 const ClassLook& look_of(AttractorClass kind) { return *std::ranges::find(kClasses, kind, &ClassLook::kind); }
 

@@ -122,11 +122,9 @@ std::string energy_at_apex(double touch, double apex, const sim::Problem& proble
         if (each.size > 0.005 * all)
             from += (shown++ == 0 ? "" : ", ") + phrase(lang, each.name, quantity(each.size, "J"));
     if (shown > 1) from = fmt::format("{} ({})", quantity(all, "J"), from);
-    double used = 0, told = 0;  // the rounded steps of the sum add up to 100 %
     for (const Part& each : uses)
-        if (const double percent = std::round(100 * (used += std::max(each.size, 0.0)) / all) - told; percent > 0)
-            told += percent,
-                to += (to.empty() ? "" : ", ") + phrase(lang, each.name, fmt::format("{:.0f}\u00A0%", percent));
+        if (const double percent = std::round(100 * each.size / all); percent > 0)
+            to += (to.empty() ? "" : ", ") + phrase(lang, each.name, fmt::format("{:.0f}\u00A0%", percent));
     return phrase(lang, "energy {}", from) + ": " + to;
 }
 
@@ -154,7 +152,8 @@ std::string force_of(const sim::Collision& c, const sim::Problem& problem, Lang 
 }
 
 // The captions of a collision, from the first touch to `liftoff`. How many impacts it has depends on the modes.
-void tell_collision(PictureOutput& film, const sim::Collision& c, const sim::Problem& problem, double liftoff) {
+void tell_collision(PictureOutput& film, const sim::Collision& c, const sim::Problem& problem, double liftoff,
+                    bool stays) {
     constexpr double kAtTouch = 0.8, kAtPeak = 1.5, kAtLiftoff = 1.5;  // freezes [s]
     const double touch = c.t_start;
     const Lang lang = film.view.lang;
@@ -164,9 +163,9 @@ void tell_collision(PictureOutput& film, const sim::Collision& c, const sim::Pro
         tell(film, *c.t_peak,
              force_of(c, problem, lang) + ", " + phrase(lang, "{} after the touch", quantity(*c.t_peak - touch, "s")),
              kAtPeak);
-    if (!c.t_end)
+    if (stays)
         tell(film, liftoff, phrase(lang, "stays in contact"));
-    else if (liftoff > touch)
+    else if (c.t_end && liftoff > touch)
         tell(film, liftoff, phrase(lang, "the collision ends after {}", quantity(liftoff - touch, "s")), kAtLiftoff);
 }
 
@@ -177,9 +176,10 @@ PictureOutput told_impact(PictureOutput film, const Scene& scene, const sim::Res
     const sim::Collision& c = motion.collisions[number];
     const double touch = c.t_start;
     begin_before(touch, motion, span);
-    // Of a contact that lasts, the film shows as much as of the time before it.
-    const double liftoff = c.t_end.value_or(std::min(motion.end_time, touch + (touch - span.from))),
-                 length = liftoff - touch;
+    // Of a contact that lasts, the film shows as much as of the time before it, and the last touch.
+    const sim::Impact& last = motion.impacts.back();
+    const double shown = std::max(last.t_end ? 0 : last.t_start, touch + (touch - span.from)),
+                 liftoff = c.t_end.value_or(std::min(motion.end_time, shown)), length = liftoff - touch;
     const bool is_last = number + 1 == motion.collisions.size();
     const double next = is_last ? motion.end_time : motion.collisions[number + 1].t_start;
     const std::vector<sim::Apex> apexes = sim::rebounds(motion);
@@ -195,7 +195,7 @@ PictureOutput told_impact(PictureOutput film, const Scene& scene, const sim::Res
         span.speed.ease = length;
     }
     tell_beginning(film, scene.problem);
-    tell_collision(film, c, scene.problem, liftoff);
+    tell_collision(film, c, scene.problem, liftoff, !c.t_end && !last.t_end);
     if (rebounds)
         tell(film, *span.to, energy_at_apex(touch, *span.to, scene.problem, find, film.view.lang), kHold);
     else if (!c.t_end)

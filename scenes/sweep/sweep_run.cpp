@@ -46,9 +46,11 @@ std::string SweepRun::summary() const {
     for (std::uint64_t k = 0; k < grid_.points(); ++k) {
         if (!data_.has(k)) continue;
         const output::StoredPoint point = store_.read(k);
-        ++kinds[point.kind];
         ++count;
-        if (!point.failure.empty() && failed++ == 0) why = point.failure;
+        if (point.failure.empty())
+            ++kinds[point.kind];
+        else if (failed++ == 0)
+            why = point.failure;
     }
     std::string text = fmt::format("{} in {:.1f} s{}", counted(count, "point"), seconds_,
                                    count > 0 ? ":" : ": the sweep has at most " + counted(grid_.tasks(), "part"));

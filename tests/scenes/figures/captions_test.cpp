@@ -22,8 +22,7 @@ std::string caption_of(const std::string& text, const char* name, Lang lang = La
 
 TEST(Captions, AreTitleParametersAndAccuracy) {
     EXPECT_THAT(caption_of(R"({"beam": {"modes": 3}, "cam": {"speed": "-30 rpm"}})", "schematic"),
-                HasSubstr("; ω: speed. Parameters: beam modes = 3, cam speed = −30 rpm. Nothing is "
-                          "integrated for this figure."));
+                HasSubstr("; ω: speed. Parameters: beam modes = 3, cam speed = −30 rpm."));
     EXPECT_THAT(caption_of("{}", "schematic"), HasSubstr("All parameters have their default values."));
     EXPECT_THAT(
         caption_of(R"({"time": {"end": 0.4}})", "angle"),

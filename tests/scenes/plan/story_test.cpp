@@ -104,6 +104,11 @@ TEST(Story, ImpactShowsAContactThatLastsForAWhile) {
     EXPECT_LT(double(film.times.frames.size()) / 60, 30);
 }
 
+TEST(Story, ImpactDoesNotSayThatABeamStaysWhichBouncesOn) {
+    const std::string relay = R"("contact": {"collision_gap": 10}, "time": {"end": 1}, )";
+    EXPECT_THAT(texts(film_of(relay, "impact", "")), ::testing::Not(::testing::Contains("stays in contact")));
+}
+
 TEST(Story, SettleEndsWithAContactThatLasts) {
     const ResolvedOutput film = film_of(kRigid, "settle");
     const double settled = motion_of(kRigid, 3).impacts.back().t_start;
