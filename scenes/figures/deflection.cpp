@@ -41,8 +41,9 @@ struct Curves {
     const char* label;
     int look;  // the line style
 };
-constexpr std::array kCurves{Curves{Printing::corrected, "corrected", 0}, Curves{Printing::completed, "completed", 2},
-                             Curves{Printing::printed, "printed", 1}};
+constexpr std::array kCurves{Curves{Printing::corrected, "along the rod", 0},
+                             Curves{Printing::completed, "eq. (5), completed", 2},
+                             Curves{Printing::printed, "eq. (5), printed", 1}};
 
 // Deflection [mm] and slope along the beam [10⁻³] over both spans.
 struct DeflectionCurves {
@@ -104,8 +105,8 @@ Figure deflection_figure(const Subject& subject, const MotionResults&) {
                                        "$O$, supported at the marks, $l_{{1}}$ = {}{}",
                                        number(at.angle * 180 / M_PI, 4),
                                        at.tangent ? ", tangent to the centred disc" : "", fmt::join(supports, ", "),
-                                       several ? "; printed: eq. (5) of Acta Physica Sinica 65, 240502 (2016); "
-                                                 "completed: with its missing terms; corrected: along the rod"
+                                       several ? "; eq. (5): of Acta Physica Sinica 65, 240502 (2016), as printed "
+                                                 "and completed by its missing terms"
                                                : ""),
                   .panels = lettered({std::move(shape), std::move(slope)}),
                   .share_x = true,
