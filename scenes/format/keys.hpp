@@ -119,6 +119,7 @@ void visit(SceneVisitor& v, Output& output);
 void visit(SceneVisitor& v, render::LayoutNode& node);
 void visit(SceneVisitor& v, Compared& motion);
 void visit(SceneVisitor& v, Measurement& data);
+void visit(SceneVisitor& v, PlottedTable& table);
 void visit(SceneVisitor& v, Sweep& sweep);
 
 Node tree_of(const std::function<void(SceneVisitor& v)>& visit);

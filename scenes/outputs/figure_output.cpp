@@ -7,7 +7,6 @@
 #include "render/plot/style.hpp"
 #include "scenes/figures/figure_types.hpp"
 #include "scenes/format/checks.hpp"
-#include "scenes/format/plotted_table.hpp"
 #include "scenes/format/presets.hpp"
 #include "scenes/format/value_formats.hpp"
 #include "scenes/plan/planner.hpp"
@@ -54,21 +53,6 @@ static void visit(SceneVisitor& v, SeriesNote& note) {
     v.value(sim::required("at", "\"impact:1\""), instant_format(note.at), "The instant.");
     v.text("text", note.text, "Text beside the line, in the first panel; $θ$ is a formula.");
     v.check([&note](ObjectReader& r) { check_markup(r, "text", note.text); });
-}
-
-static void visit(SceneVisitor& v, PlottedTable& table) {
-    const std::string unit =
-        "columns whose unit is known by their heading or name are converted, others are taken to be in it.";
-    v.text(sim::required("file", "\"peaks.csv\""), table.file,
-           "A .csv or .npz file, of beamcam or of other programs; its path is relative to the scene's folder.");
-    v.text(sim::required("x", "\"cam.speed\""), table.x, "The column of the abscissa.");
-    v.value(sim::required("y", "[\"force_peak\"]"), texts_format(table.y),
-            "The columns that are drawn, with one panel for each unit.");
-    v.text("label", table.label, "Label of the ordinate, without the unit; by default the names of the columns.");
-    v.text("unit", table.unit, ("Unit of the ordinate, \"kN\": " + unit).c_str());
-    v.text("x_label", table.x_label, "Label of the abscissa, without the unit.");
-    v.text("x_unit", table.x_unit, ("Unit of the abscissa, \"rpm\": " + unit).c_str());
-    v.check([&table](ObjectReader& r) { read_plotted_table(r, table); });
 }
 
 // A key of figures; only those that have it write it.

@@ -1,11 +1,11 @@
-#include "scenes/format/plotted_table.hpp"
-
+// The keys of the figure "table", which reads the columns of a file.
 #include <filesystem>
 
 #include "output/data/table_reader.hpp"
 #include "output/files/digest.hpp"
 #include "scenes/format/checks.hpp"
 #include "scenes/format/suggest.hpp"
+#include "scenes/format/value_formats.hpp"
 #include "sim/problem/number_keys.hpp"
 #include "sim/sweep/sampling.hpp"
 
@@ -36,9 +36,8 @@ PlottedTable::Column column_of(ObjectReader& r, const output::TableColumn& from,
     return column;
 }
 
-}  // namespace
-
-void read_plotted_table(ObjectReader& r, PlottedTable& plotted) {
+// Fills `columns` and `digest`.
+void read_columns_of(ObjectReader& r, PlottedTable& plotted) {
     if (plotted.file.empty() || r.diagnostics().failed(r.object_name())) return;
     const auto path = std::filesystem::path(r.context().source.name).parent_path() / plotted.file;
     for (const auto& [key, text] : {std::pair{"label", &plotted.label}, std::pair{"x_label", &plotted.x_label}})
@@ -63,6 +62,23 @@ void read_plotted_table(ObjectReader& r, PlottedTable& plotted) {
     } catch (const output::IoError& error) {
         r.reject("file", ": {}", error.what());
     }
+}
+
+}  // namespace
+
+void visit(SceneVisitor& v, PlottedTable& table) {
+    const std::string unit =
+        "columns whose unit is known by their heading or name are converted, others are taken to be in it.";
+    v.text(sim::required("file", "\"peaks.csv\""), table.file,
+           "A .csv or .npz file, of beamcam or of other programs; its path is relative to the scene's folder.");
+    v.text(sim::required("x", "\"cam.speed\""), table.x, "The column of the abscissa.");
+    v.value(sim::required("y", "[\"force_peak\"]"), texts_format(table.y),
+            "The columns that are drawn, with one panel for each unit.");
+    v.text("label", table.label, "Label of the ordinate, without the unit; by default the names of the columns.");
+    v.text("unit", table.unit, ("Unit of the ordinate, \"kN\": " + unit).c_str());
+    v.text("x_label", table.x_label, "Label of the abscissa, without the unit.");
+    v.text("x_unit", table.x_unit, ("Unit of the abscissa, \"rpm\": " + unit).c_str());
+    v.check([&table](ObjectReader& r) { read_columns_of(r, table); });
 }
 
 }  // namespace beamcam::scenes
