@@ -10,7 +10,6 @@
 #include "render/base/error.hpp"
 #include "render/base/limits.hpp"
 #include "scenes/commands/commands.hpp"
-#include "scenes/format/reader.hpp"
 #include "scenes/outputs/run.hpp"
 #include "sim/run/simulate.hpp"
 
@@ -37,7 +36,6 @@ Failure failure_of(const std::exception& e) {
     }
     if (is_one_of<UsageError, NameClash>(e)) return {kUsage, text, false};
     if (is_one_of<SceneError>(e)) return {kBadScene, text, false};
-    if (is_one_of<UnreadableFile>(e)) return {kInputOutput, text, false};
     if (is_one_of<std::bad_alloc>(e)) return {kInputOutput, render::out_of_memory_message(), false};
     if (is_one_of<sim::Interrupted>(e)) return {kInterrupted, "interrupted; no output is half-written", false};
     if (is_one_of<output::UnsupportedOption, render::PictureError>(e)) return {kBadScene, text};

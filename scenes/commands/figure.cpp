@@ -86,7 +86,7 @@ std::optional<Preset> preset_of(const FigureArguments& args) {
         const Preset* embedded = embedded_preset(args.figure);
         return embedded ? std::optional(*embedded) : std::nullopt;
     }
-    const Source source = load_named_source(*args.preset, "`beamcam figure SCENE` lists the presets");
+    const Source source = load_source(*args.preset, "`beamcam figure SCENE` lists the presets");
     Parsed parsed = parse(source.text);
     if (parsed.is_json && parsed.root.kind != Node::Kind::object)
         parsed.messages.push_back({parsed.root.place, "a preset is an object with the keys of a figure", true});

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "output/files/atomic_file.hpp"
 #include "scenes/format/checks.hpp"
 #include "scenes/format/object_reader.hpp"
 #include "scenes/format/overrides.hpp"
@@ -40,7 +41,7 @@ Node mechanics_of(const Node& root) { return sections_of(root, is_mechanics); }
 // Its outputs are not read: they may compare it with the scene that names it.
 OtherScene read_other(const std::string& path) {
     try {
-        Source source = load_named_source(path);
+        Source source{path, output::read_regular_file(path)};
         const Parsed parsed = parse(source.text);
         if (parsed.is_json && parsed.root.kind == Node::Kind::object &&
             std::ranges::none_of(parsed.messages, &Message::fatal)) {
@@ -48,7 +49,7 @@ OtherScene read_other(const std::string& path) {
             if (read_scene(std::move(source), root, {}).scene) return {mechanics_of(root), {}};
         }
         return {{}, fmt::format("it is not a valid scene; `beamcam check {}` lists its errors", path)};
-    } catch (const UnreadableFile& unreadable) {
+    } catch (const output::IoError& unreadable) {
         return {{}, unreadable.what()};
     }
 }

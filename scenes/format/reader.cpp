@@ -6,7 +6,6 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <memory>
 
@@ -87,31 +86,22 @@ Reading read_scene(Source file, Node root, const std::vector<std::string>& overr
     return reading;
 }
 
-Source load_named_source(const std::string& path, const char* remedy) {
-    std::error_code error;
-    const std::filesystem::file_status status = std::filesystem::status(path, error);
-    if (path != "-" && std::filesystem::exists(status) && !std::filesystem::is_directory(status) &&
-        !std::filesystem::is_regular_file(status))
-        throw UnreadableFile(fmt::format("{} is not a regular file", path));
-    return load_source(path == "-" ? "./-" : path, remedy);
-}
-
 Source load_source(const std::string& path, const char* remedy) {
     std::error_code ignored;
     if (path != "-" && std::filesystem::is_directory(path, ignored))
-        throw UnreadableFile(fmt::format("{} is a directory; name a scene file inside it", path));
+        throw output::IoError(fmt::format("{} is a directory; name a scene file inside it", path));
     errno = 0;
     std::unique_ptr<std::FILE, CloseFile> file(path == "-" ? stdin : std::fopen(path.c_str(), "rb"));
     if (!file)
-        throw UnreadableFile(errno == ENOENT ? fmt::format("{} does not exist; {}", path, remedy)
-                                             : output::read_error(path, errno).what());
+        throw errno == ENOENT ? output::IoError(fmt::format("{} does not exist; {}", path, remedy))
+                              : output::read_error(path, errno);
     Source source{path == "-" ? "stdin" : path, {}, true};
     std::array<char, 65536> block;
     while (const std::size_t n = std::fread(block.data(), 1, block.size(), file.get())) {
         source.text.append(block.data(), n);
         if (source.text.size() > kLargestScene) break;  // the parser reports the size
     }
-    if (std::ferror(file.get())) throw UnreadableFile(fmt::format("{} cannot be read: {}", path, std::strerror(errno)));
+    if (std::ferror(file.get())) throw output::read_error(path, errno);
     return source;
 }
 

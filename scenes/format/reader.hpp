@@ -3,7 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -27,15 +26,10 @@ Reading read_scene(Source file, const std::vector<std::string>& overrides = {});
 // Reads a part of a file; `root` has its positions.
 Reading read_scene(Source file, Node root, const std::vector<std::string>& overrides);
 
-// The file cannot be read: it does not exist, is a directory, permission is denied.
-struct UnreadableFile : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
 inline constexpr const char* kNoScene = "`beamcam init` writes a first scene";
-// "-" is standard input. `remedy`: end of the message if the file does not exist. Throws UnreadableFile.
+// "-" is standard input. `remedy`: end of the message if the file does not exist. Throws
+// output::IoError.
 Source load_source(const std::string& path, const char* remedy = kNoScene);
-// Loads a file that a scene file names. Rejects standard input, and pipes and devices, which might never end.
-Source load_named_source(const std::string& path, const char* remedy = kNoScene);
 
 // Reads one output, which becomes the only output of the scene. `scene_name`: paths in the output are relative to its
 // folder. `path`: of the output in messages, such as "entries.fall.output"; empty: "the output". False on errors.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "output/files/atomic_file.hpp"
 #include "output/json/tree.hpp"
 #include "scenes/format/object_reader.hpp"
 #include "scenes/format/reader.hpp"
@@ -95,8 +96,8 @@ class Reader {
         Reading reading;
         if (node.kind == Node::Kind::string) {
             try {
-                reading = read_scene(load_named_source(scene_file(entry)), entry.set);
-            } catch (const UnreadableFile& error) {
+                reading = read_scene({scene_file(entry), output::read_regular_file(scene_file(entry))}, entry.set);
+            } catch (const output::IoError& error) {
                 return reject_scene(entry, fmt::format(": {}", error.what()));
             }
         } else if (node.kind == Node::Kind::object) {

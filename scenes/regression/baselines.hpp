@@ -68,7 +68,7 @@ struct Baselines {
 void visit(SceneVisitor& v, Baselines& baselines);
 std::string baselines_schema_text();
 
-// Throws SceneError with every issue at once, UnreadableFile.
+// Throws SceneError with every issue at once, output::IoError.
 Baselines read_baselines(const std::string& path);
 
 // The entries that names or patterns such as "fall-*" select; without patterns, all. Throws UsageError for a pattern

@@ -1,7 +1,8 @@
 // The reader of baselines: entries or a message.
+#include "scenes/regression/baselines.hpp"
+
 #include "scenes/commands/commands.hpp"
 #include "scenes/format/reader.hpp"
-#include "scenes/regression/baselines.hpp"
 #include "tests/fuzz/support.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -14,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             fuzz::claim(!entry.name.empty() && entry.name.find('/') == std::string::npos, "names lead nowhere else");
     } catch (const scenes::SceneError& error) {
         fuzz::claim(error.what()[0] != 0, "a refusal says why");
-    } catch (const scenes::UnreadableFile&) {
+    } catch (const output::IoError&) {
     }
     return 0;
 }

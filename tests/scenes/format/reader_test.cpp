@@ -596,7 +596,7 @@ TEST(ComparedFiles, OnlyRegularFilesAreRead) {
         EXPECT_THAT(messages(read_file_of(folder, "a.json")), ElementsAre(HasSubstr("not a regular file"))) << name;
     }
     folder.write("a.json", comparing("-"));
-    EXPECT_THAT(messages(read_file_of(folder, "a.json")), ElementsAre(HasSubstr("does not exist")));
+    EXPECT_THAT(messages(read_file_of(folder, "a.json")), ElementsAre(HasSubstr("No such file")));
 }
 
 TEST(Reader, NoTextHasTheCharacterThatEndsOne) {
@@ -609,11 +609,11 @@ TEST(Reader, NoTextHasTheCharacterThatEndsOne) {
 
 TEST(LoadSource, WhatCannotBeReadIsReported) {
     const testing::Folder folder;
-    EXPECT_THROW(load_source((folder / "absent.json").string()), UnreadableFile);
-    EXPECT_THROW(load_source(folder.path().string()), UnreadableFile);
+    EXPECT_THROW(load_source((folder / "absent.json").string()), output::IoError);
+    EXPECT_THROW(load_source(folder.path().string()), output::IoError);
     try {
         load_source(folder.path().string());
-    } catch (const UnreadableFile& error) {
+    } catch (const output::IoError& error) {
         EXPECT_THAT(error.what(), HasSubstr("is a directory"));
     }
 }
