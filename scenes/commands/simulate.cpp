@@ -1,6 +1,4 @@
 // `beamcam simulate`: tables, impacts and the summary of a motion, without pictures.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <optional>
 
@@ -64,19 +62,15 @@ std::vector<Output> simulate_outputs(const SimulateArguments& args, const Scene&
     return outputs;
 }
 
-void require_different_files(const std::vector<Output>& outputs) {
+void require_one_on_stdout(const std::vector<Output>& outputs) {
     const auto to_stdout = std::ranges::count_if(outputs, [](const Output& o) { return is_stdout(file_of(o)); });
     if (to_stdout > 1) throw UsageError("more than one output would go to standard output; name files for the others");
-    FileClaims claims;
-    for (std::size_t i = 0; i < outputs.size(); ++i) claims.add(file_of(outputs[i]), i);
-    for (const auto& clash : claims.clashes())
-        throw UsageError(fmt::format("{} is named twice; give each output its own file", clash.later.file));
 }
 
 void act(const SimulateArguments& args) {
     Scene scene = load_scene(args.scene, args.common);
     std::vector<Output> outputs = simulate_outputs(args, scene);
-    require_different_files(outputs);
+    require_one_on_stdout(outputs);
     scene.set_outputs(std::move(outputs));
     run_or_plan({&scene, 1}, run_options(args.common, ""), args.common);
 }

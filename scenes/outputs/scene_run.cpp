@@ -233,13 +233,12 @@ void SceneRun::write_pictures(const PlannedPictures& p) {
         context_.print("note: {} shows deflection ×{:g} without stating it; state it in the caption\n", p.file,
                        film.exaggeration());
     if (!p.times.callouts.empty() && !film.shows_captions())
-        context_.print("warning: {} shows no texts of events: {}\n", p.file, why_text_is_omitted(p.size));
+        context_.print("warning: {} shows no texts of events: {}\n", p.file, too_small(p.size));
     if (!film.shows_clock_line())
-        context_.print("warning: {} shows only a part of the line of the clock: {}\n", p.file,
-                       why_text_is_omitted(p.size));
+        context_.print("warning: {} shows only a part of the line of the clock: {}\n", p.file, too_small(p.size));
     if (!film.cut_texts().empty())
         context_.print("warning: {} shows only the beginning of {}: {}\n", p.file, fmt::join(film.cut_texts(), " and "),
-                       why_text_is_omitted(p.size));
+                       too_small(p.size));
     if (const int empty = film.empty_frames(); empty > 0)
         context_.print(
             "warning: the mechanism is outside the picture in {1} of {2} of {0}; change \"follow\" or \"zoom\"\n",
@@ -267,7 +266,7 @@ void SceneRun::write_whole(const PlannedPictures& p, const std::string& bytes) {
 // Warns about requested parts that the picture does not show.
 void SceneRun::warn_of_omissions(const PlannedPictures& p) const {
     if (!p.omitted_panels.empty())
-        context_.print("warning: {} shows no {}: {}\n", p.file, p.omitted_panels, why_panels_are_omitted(p.size));
+        context_.print("warning: {} shows no {}: {}\n", p.file, p.omitted_panels, too_small(p.size));
     constexpr std::size_t kFewFrames = 12;
     if (const std::size_t frames = p.times.frames.size(); p.has_frames() && p.span.real_time() && frames < kFewFrames)
         context_.print(

@@ -13,13 +13,8 @@ bool Plan::needs_gl() const {
     return std::ranges::any_of(pictures, [](const PlannedPictures& p) { return p.view.style != render::Style::flat; });
 }
 
-std::string why_panels_are_omitted(const Size& size) {
-    return fmt::format("{} × {} is too small for them; increase \"size\" or their shares, or remove panels", size.width,
-                       size.height);
-}
-
-std::string why_text_is_omitted(const Size& size) {
-    return fmt::format("{} × {} is too small for them; increase \"size\"", size.width, size.height);
+std::string too_small(const Size& size) {
+    return fmt::format("{} × {} is too small for them; increase \"size\", or remove panels", size.width, size.height);
 }
 
 std::string characters_without_font(const PictureOutput& p, const Scene& scene) {

@@ -81,11 +81,8 @@ PlanWithFigures plan(const ResolvedScene& scene, const ExistingWork& existing = 
 // The end of a run for all outputs of a scene [s].
 double run_end(const Scene& scene);
 
-// The reason for PlannedPictures::omitted_panels.
-std::string why_panels_are_omitted(const Size& size);
-
-// The reason for texts that a picture cuts or omits.
-std::string why_text_is_omitted(const Size& size);
+// The reason for panels and texts that a picture cuts or omits.
+std::string too_small(const Size& size);
 // "fall.mp4 omits 🙂: no font has these characters", of title, captions (also those outside the film)
 // and names; empty if there are none.
 std::string characters_without_font(const PictureOutput& p, const Scene& scene);

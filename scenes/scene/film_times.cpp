@@ -55,9 +55,9 @@ void merge(std::vector<double>& into, const std::vector<double>& more) {
 
 FilmTimes real_time(const FrameSpan& span, double to) {
     FilmTimes out;
-    const auto [first, end] = *frame_numbers(span, to);
-    out.first = first;
-    for (long k = first; k < end; ++k)
+    const auto [first, end] = frames_between(span.from, to, span.fps.value());
+    out.first = std::lround(first);
+    for (long k = out.first; k < std::lround(end); ++k)
         out.frames.push_back(static_cast<double>(k) * span.fps.denominator / span.fps.numerator);
     return out;
 }
@@ -243,10 +243,6 @@ std::vector<double> rows(double from, double to, double rate) {
     return times;
 }
 
-FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& motion, bool collisions) {
-    return film_times(span, end_time, motion, motion.impacts, collisions);
-}
-
 FilmTimes film_times(const FrameSpan& with_events, double end_time, const sim::Result& motion,
                      const std::vector<sim::Impact>& slowed, bool collisions) {
     const FrameSpan span = resolved(with_events, end_time, motion);
@@ -275,7 +271,7 @@ FilmTimes film_times(const FrameSpan& with_events, double end_time, const sim::R
 }
 
 FilmTimes page_times(const FrameSpan& span, double end_time, const sim::Result& motion) {
-    FilmTimes out = film_times(span, end_time, motion);
+    FilmTimes out = film_times(span, end_time, motion, motion.impacts);
     merge(out.frames, rows_of(Contacts::impacts, motion.impacts, span.from, span.to.value_or(end_time)));
     return out;
 }

@@ -37,15 +37,13 @@ FrameSpan resolved(const FrameSpan& span, double end_time, const sim::Result& mo
 
 // The number of frames of a film of this length in film time. Throws render::PictureError if it has none or too many.
 double frame_count(const FrameSpan& span, double seconds);
-// The numbers of the frames, the end not included; nullopt if they depend on events. In real time frame k shows k/fps:
-// the first one and the end are nearest to `from` and `to`. Throws what frame_count throws.
-std::optional<std::pair<long, long>> frame_numbers(const FrameSpan& span, double end_time);
+// In real time frame k shows k/fps: the numbers of the first one and of the end, which is not shown, are nearest to
+// `from` and `to`.
+std::pair<double, double> frames_between(double from, double to, double fps);
 
-// `motion` contains the events until the end of the span if the span needs them; else it may be empty. Throws
-// render::PictureError for an event that does not occur and for too many frames. `collisions`: charts get more rows
-// within collisions.
-FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& motion, bool collisions = false);
-// `slowed`: impacts of all compared motions, for slow motion; "impact:3" counts those of `motion`.
+// `motion` contains the events until the end of the span if the span needs them; else it may be empty. `slowed`:
+// impacts of all compared motions, for slow motion; "impact:3" counts those of `motion`. `collisions`: charts get more
+// rows within collisions. Throws render::PictureError for an event that does not occur and for too many frames.
 FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& motion,
                      const std::vector<sim::Impact>& slowed, bool collisions = false);
 // The instants of a page: those of `span`, and more within impacts, so that the force is known between them.

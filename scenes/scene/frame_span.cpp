@@ -10,13 +10,6 @@
 namespace beamcam::scenes {
 namespace {
 
-struct Frames {
-    double first, end;  // numbers
-};
-
-// The frames k/fps from the one nearest to `from` to the one nearest to `to`, which is not shown.
-Frames frames_between(double from, double to, double fps) { return {std::round(from * fps), std::round(to * fps)}; }
-
 // Why a film of this length has no frames, or too many; empty if it is valid.
 std::string problem_with_length(const FrameSpan& span, double seconds) {
     const double count = std::round(seconds * span.fps.value());
@@ -72,12 +65,8 @@ std::string problem_with_span(const FrameSpan& span, double end_time) {
     return {};
 }
 
-std::optional<std::pair<long, long>> frame_numbers(const FrameSpan& span, double end_time) {
-    const double fps = span.fps.value();
-    if (span.duration) return std::pair(0L, static_cast<long>(frame_count(span, *span.duration)));
-    if (!span.real_time() || span.from_event || span.to_event) return std::nullopt;
-    const auto [first, end] = frames_between(span.from, span.to.value_or(end_time), fps);
-    return std::pair(std::lround(first), std::lround(end));
+std::pair<double, double> frames_between(double from, double to, double fps) {
+    return {std::round(from * fps), std::round(to * fps)};
 }
 
 FrameSpan resolved(const FrameSpan& span, double end_time, const sim::Result& motion) {

@@ -291,7 +291,7 @@ TEST(OrbitsCommand, WritesASceneThatStaysOnTheOrbitAndWhoseFilmLoops) {
         for (const double later : {values[1], values[2]}) EXPECT_NEAR(later, values[0], 1e-6);
     EXPECT_EQ(motion.impacts.size(), 2 * nlohmann::json::parse(done.out)["orbits"][0]["impacts"].size());
 
-    const FilmTimes times = film_times(film.span, scene.end_time, motion);
+    const FilmTimes times = film_times(film.span, scene.end_time, motion, motion.impacts);
     ASSERT_EQ(times.frames.size(), 180u);  // three seconds
     EXPECT_NEAR(times.frames.front(), period, 1e-12);
     EXPECT_NEAR(times.frames.back() + period / 180, 2 * period, 1e-12);

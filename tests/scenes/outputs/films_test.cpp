@@ -497,7 +497,7 @@ FilmTimes times_in(const std::string& keys, const sim::Result& motion = {}) {
     const Reading reading =
         testing::read(R"({"time": {"end": 1}, "outputs": [{"type": "video", "fps": 30, )" + keys + "}]}");
     EXPECT_TRUE(reading.scene) << reading.report();
-    return film_times(std::get<PictureOutput>(reading.scene->outputs[0]).span, 1, motion);
+    return film_times(std::get<PictureOutput>(reading.scene->outputs[0]).span, 1, motion, motion.impacts);
 }
 
 TEST(Films, LastAsLongAsIsWanted) {

@@ -118,9 +118,9 @@ TEST(TimeMap, IntervalsHaveTheirOwnSpeeds) {
 TEST(FilmTimes, IntervalsThatOverlapAreRejected) {
     FrameSpan span;
     span.speed = {.factor = 1, .intervals = {{at(0.2), at(0.4), 0.1}, {at(0.3), at(0.5), 0.5}}};
-    EXPECT_THROW(film_times(span, 1, {}), render::PictureError);
+    EXPECT_THROW(film_times(span, 1, {}, {}), render::PictureError);
     span.speed.intervals = {{at(0.4), at(0.2), 0.1}};
-    EXPECT_THROW(film_times(span, 1, {}), render::PictureError);
+    EXPECT_THROW(film_times(span, 1, {}, {}), render::PictureError);
 }
 
 TEST(FilmTimes, TheCameraArrivesAtTheFrameOfItsInstant) {
@@ -199,7 +199,7 @@ TEST(TimeMap, ANumberBeyondTheImpactsIsRejectedWithTheirCount) {
 }
 
 TEST(FilmTimes, RealTimeIsTheFramesGrid) {
-    const FilmTimes times = film_times({.fps = {10, 1}, .from = 0.2, .to = 0.5}, 1, {});
+    const FilmTimes times = film_times({.fps = {10, 1}, .from = 0.2, .to = 0.5}, 1, {}, {});
     EXPECT_EQ(times.frames, (std::vector{2 / 10.0, 3 / 10.0, 4 / 10.0}));
     EXPECT_EQ(times.first, 2);
     EXPECT_TRUE(times.speeds.empty());
@@ -207,7 +207,7 @@ TEST(FilmTimes, RealTimeIsTheFramesGrid) {
 
 TEST(FilmTimes, PartsThatAdjoinHaveEachFrameOnce) {
     const auto frames = [](double from, double to) {
-        return film_times({.fps = {25, 1}, .from = from, .to = to}, 1, {}).frames;
+        return film_times({.fps = {25, 1}, .from = from, .to = to}, 1, {}, {}).frames;
     };
     for (const double cut : {0.24, 0.25, 0.27, 0.28}) {
         std::vector<double> parts = frames(0, cut);
@@ -221,7 +221,7 @@ TEST(FilmTimes, PartsThatAdjoinHaveEachFrameOnce) {
 TEST(FilmTimes, SlowMotionHasRowsBetweenItsFrames) {
     sim::Result motion;
     motion.impacts = kImpacts;
-    const FilmTimes times = film_times({.fps = {60, 1}, .speed = kSlow}, 1, motion);
+    const FilmTimes times = film_times({.fps = {60, 1}, .speed = kSlow}, 1, motion, motion.impacts);
     EXPECT_EQ(times.frames.size(), times.speeds.size());
     EXPECT_TRUE(std::is_sorted(times.frames.begin(), times.frames.end()));
     EXPECT_TRUE(std::is_sorted(times.chart.begin(), times.chart.end()));
@@ -277,7 +277,8 @@ TEST(FilmTimes, CollisionsHaveRowsOfTheirOwn) {
     };
     for (int i = 0; i < 3; ++i) add(0.2 + 0.2 * i, 0.21 + 0.2 * i);
     const FrameSpan span{.fps = {60, 1}};
-    const FilmTimes plain = film_times(span, 1, motion), fine = film_times(span, 1, motion, true);
+    const FilmTimes plain = film_times(span, 1, motion, motion.impacts),
+                    fine = film_times(span, 1, motion, motion.impacts, true);
     EXPECT_EQ(plain.frames, fine.frames);
     EXPECT_EQ(plain.trace, fine.trace);
     EXPECT_TRUE(std::is_sorted(fine.chart.begin(), fine.chart.end()));
@@ -293,12 +294,12 @@ TEST(FilmTimes, CollisionsHaveRowsOfTheirOwn) {
     motion.impacts.clear();
     for (int i = 0; i < 100'000; ++i) add(1e-5 * i, 1e-5 * (i + 0.5));
     add(1, std::nullopt);
-    EXPECT_LT(film_times(span, 1, motion, true).chart.size(), 600'000u);
+    EXPECT_LT(film_times(span, 1, motion, motion.impacts, true).chart.size(), 600'000u);
 }
 
 TEST(FilmTimes, TextIsShownAsLongAsTheFreeze) {
     const FilmTimes times =
-        film_times({.fps = {10, 1}, .events = {{.at = {.t = 0.5}, .freeze = 2, .text = "now", .show = 1}}}, 1, {});
+        film_times({.fps = {10, 1}, .events = {{.at = {.t = 0.5}, .freeze = 2, .text = "now", .show = 1}}}, 1, {}, {});
     ASSERT_EQ(times.callouts.size(), 1u);
     EXPECT_EQ(times.callouts[0].first, 5);
     EXPECT_EQ(times.callouts[0].last, 25);
@@ -307,7 +308,7 @@ TEST(FilmTimes, TextIsShownAsLongAsTheFreeze) {
 
 TEST(FilmTimes, TextsOfOneInstantFollowEachOther) {
     const FilmTimes times =
-        film_times({.fps = {10, 1}, .events = {{{.t = 0.5}, 2, "first", 1}, {{.t = 0.5}, 1, "second", 1}}}, 1, {});
+        film_times({.fps = {10, 1}, .events = {{{.t = 0.5}, 2, "first", 1}, {{.t = 0.5}, 1, "second", 1}}}, 1, {}, {});
     ASSERT_EQ(times.callouts.size(), 2u);
     EXPECT_EQ(times.callouts[0].first, 5);
     EXPECT_EQ(times.callouts[0].last, 24);  // one text at a time
