@@ -158,8 +158,10 @@ std::string cause(const Failure& failure, System& system, const BeamState& beam)
             return large_deflection(p, beam) ? deflection_message(p, beam) : inertia_message(p);
         case Stop::stuck:
             if (large_deflection(p, beam)) return deflection_message(p, beam);
-            return "touch and release follow each other without progress in time; use a smaller contact.restitution "
-                   "or solver.rtol, or a softer contact.friction.stiffness";
+            return std::string("touch and release follow each other without progress in time; use a smaller ") +
+                   (p.contact.model == ContactModel::restitution
+                        ? "contact.restitution or solver.rtol, or more modes"
+                        : "solver.rtol, or a softer contact.friction.stiffness");
         case Stop::refused:
             return failure.message;
         case Stop::method:
