@@ -10,7 +10,6 @@
 #include "sim/orbit/tangent_step.hpp"
 
 namespace beamcam::sim {
-namespace {}  // namespace
 
 Saltation::Saltation(System& probe, Variation& variation, const Eigen::VectorXd& units)
     : probe_(probe), variation_(variation), units_(units), n_(probe_.coordinates()), rows_(2 * n_ + kTangentMemories) {}
