@@ -105,18 +105,6 @@ void npz(const FileTarget& file, const SweepData& data) {
 
 void write_sweep_csv(const TextSink& write, const SweepData& data) { csv(data, write); }
 
-ColumnTable table_of(const SweepData& data) {
-    ColumnTable table;
-    for (std::string& name : column_names(data)) table.columns.push_back({std::move(name)});
-    each_point(data, [&](const StoredPoint& p) {
-        each_column(data, p, [&](std::size_t c, const std::vector<double>& values) {
-            std::vector<double>& all = table.columns[c].values;
-            all.insert(all.end(), values.begin(), values.end());
-        });
-    });
-    return table;
-}
-
 void write_sweep(const FileTarget& file, const SweepData& data) {
     const std::string ending = file.path.extension().string();
     if (ending == ".npz") return npz(file, data);

@@ -75,7 +75,5 @@ inline constexpr const char* kPartEnding = ".points";
 // The ending decides: .csv, .npz, .nc or .points. Throws IoError, UnsupportedOption, render::MissingPart.
 void write_sweep(const FileTarget& file, const SweepData& data);
 void write_sweep_csv(const TextSink& write, const SweepData& data);
-// The rows of .csv and .npz.
-ColumnTable table_of(const SweepData& data);
 
 }  // namespace beamcam::output

@@ -65,7 +65,7 @@ void measure_similarity(const Raster& a, const Raster& b, PictureDifference& d) 
     constexpr int kBlock = 4;
     const int columns = a.width / kBlock, rows = a.height / kBlock;
     if (columns < 2 || rows < 2) {  // smaller than a window: the picture is the window
-        d.ssim = d.lowest_ssim = similarity(sums_of(a, b, 0, 0, a.width, a.height), static_cast<double>(a.pixels()));
+        d.ssim = similarity(sums_of(a, b, 0, 0, a.width, a.height), static_cast<double>(a.pixels()));
         return;
     }
     // A window consists of four blocks of 4 × 4; the sums of two rows of blocks are kept.
@@ -83,9 +83,7 @@ void measure_similarity(const Raster& a, const Raster& b, PictureDifference& d) 
             window += now[c - 1];
             window += above[c];
             window += above[c - 1];
-            const double value = similarity(window, 64);
-            total += value;
-            d.lowest_ssim = std::min(d.lowest_ssim, value);
+            total += similarity(window, 64);
         }
     }
     d.ssim = total / (double(columns - 1) * (rows - 1));

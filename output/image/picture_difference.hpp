@@ -26,7 +26,6 @@ struct PictureDifference {
     int largest = 0;          // largest difference of a channel, 0…255
     PixelBox box;             // around the changed pixels
     double ssim = 1;          // mean structural similarity of brightness, −1…1
-    double lowest_ssim = 1;   // of the least similar window
 
     bool identical() const { return largest == 0; }
     double share() const { return pixels == 0 ? 0 : static_cast<double>(changed) / static_cast<double>(pixels); }

@@ -42,7 +42,7 @@ std::string to_text(const PictureComparison& c) {
                                    d.pixels, 100 * d.share(), d.largest);
     if (d.changed > 0)
         text += fmt::format(", within {}x{}+{}+{}", d.box.width(), d.box.height(), d.box.left, d.box.top);
-    return text + fmt::format(", SSIM {:.6f} (lowest window {:.4f})", d.ssim, d.lowest_ssim);
+    return text + fmt::format(", SSIM {:.6f}", d.ssim);
 }
 
 std::string to_text(const output::OtherInstant& other) {

@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 
 // The verdict that `compare` finds with the references; nothing if there are none. An update replaces damaged ones,
 // which are no error then.
-Verdict judge(EntryContext& test, const std::string& label,
-              const std::function<std::optional<MotionVerdict>()>& compare) {
+Verdict verdict_of(EntryContext& test, const std::string& label,
+                   const std::function<std::optional<MotionVerdict>()>& compare) {
     std::optional<MotionVerdict> found;
     try {
         found = compare();
@@ -54,7 +54,7 @@ void judge_motion(EntryContext& test, std::size_t number, const std::string& lab
                   const std::vector<sim::Impact>& impacts, double until, std::optional<double> reproducible_until) {
     const RecordNames names(number);
     test.update.keep(names.table), test.update.keep(names.impacts);
-    const Verdict verdict = judge(test, label, [&]() -> std::optional<MotionVerdict> {
+    const Verdict verdict = verdict_of(test, label, [&]() -> std::optional<MotionVerdict> {
         const std::optional<MotionRecord> expected = read_record(test.references, names);
         if (!expected) return std::nullopt;
         return compare(*expected, record_of(table, impacts, until), test.tolerance);
@@ -66,23 +66,6 @@ void judge_motion(EntryContext& test, std::size_t number, const std::string& lab
             fmt::format("{}compared until {:.6g} s of {:.6g} s: after that it is not reproducible on other processors; "
                         "a sweep guards its attractor",
                         label, *reproducible_until, until));
-}
-
-// Computes the points of the sweep. Throws sim::Interrupted, SceneError if the sweep is impossible.
-void judge_sweep(EntryContext& test, int threads, Progress& progress) {
-    SweepRun sweep(test.entry.scene);
-    sweep.make(threads, progress);
-    const output::ColumnTable samples = output::table_of(sweep.data());
-    test.update.keep(kSweepRecord);
-    const Verdict verdict = judge(test, "", [&]() -> std::optional<MotionVerdict> {
-        if (!test.references.has(kSweepRecord)) return std::nullopt;
-        return compare_sweeps(output::read_table(test.references.file(kSweepRecord)), samples, test.tolerance);
-    });
-    if (!test.references.is_updated() || verdict == Verdict::identical) return;
-    require_settled(test, sweep);
-    std::string csv;
-    output::write_sweep_csv([&csv](const std::string& text) { csv += text; }, sweep.data());
-    test.update.put(kSweepRecord, csv);
 }
 
 }  // namespace
@@ -179,7 +162,20 @@ void EntryTest::judge(MotionPool& pool, const RunOptions& options) {
 }
 
 void EntryTest::judge_sweep(int threads, Progress& progress) {
-    scenes::judge_sweep(test_, threads, progress);
+    SweepRun sweep(test_.entry.scene);
+    sweep.make(threads, progress);
+    std::string csv;
+    output::write_sweep_csv([&csv](const std::string& text) { csv += text; }, sweep.data());
+    const output::ColumnTable samples = output::parse_csv(csv, kSweepRecord);
+    test_.update.keep(kSweepRecord);
+    const Verdict verdict = verdict_of(test_, "", [&]() -> std::optional<MotionVerdict> {
+        if (!test_.references.has(kSweepRecord)) return std::nullopt;
+        return compare_sweeps(output::read_table(test_.references.file(kSweepRecord)), samples, test_.tolerance);
+    });
+    if (test_.references.is_updated() && verdict != Verdict::identical) {
+        require_settled(test_, sweep);
+        test_.update.put(kSweepRecord, csv);
+    }
     update();
 }
 

@@ -55,7 +55,6 @@ Node to_node(const PictureComparison& p) {
     add(out, "largest", d.largest);
     add(out, "box", box(d.box));
     add(out, "ssim", d.ssim);
-    add(out, "lowest_ssim", d.lowest_ssim);
     return out;
 }
 

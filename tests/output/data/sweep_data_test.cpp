@@ -51,9 +51,11 @@ TEST(SweepData, IsACsvWithARowASample) {
               "3,0,rest,2,,0.2857142857142857,,1,2.2000000000000002,2.2999999999999998\n");
 }
 
-TEST(SweepData, HasTheRowsOfItsFilesAsATable) {
+TEST(SweepData, HasTheSameRowsAsCsvAndNpz) {
     const Scratch scratch;
-    const ColumnTable own = table_of(grid(7));
+    std::string csv;
+    write_sweep_csv([&csv](const std::string& text) { csv += text; }, grid(7));
+    const ColumnTable own = parse_csv(csv, "a.csv");
     write_sweep(scratch / "a.npz", grid(7));
     const ColumnTable read = read_table(scratch / "a.npz");
     EXPECT_EQ(own.names(), read.names());
@@ -61,9 +63,8 @@ TEST(SweepData, HasTheRowsOfItsFilesAsATable) {
     for (std::size_t c = 0; c < own.columns.size(); ++c)
         for (std::size_t row = 0; row < own.rows(); ++row)
             EXPECT_TRUE(own.columns[c].values[row] == read.columns[c].values[row] ||
-                        std::isnan(read.columns[c].values[row]))
+                        std::isnan(read.columns[c].values[row]) || own.columns[c].name == "class")  // not those of sim/
                 << own.columns[c].name;
-    EXPECT_EQ(own.find("class")->at(1), 1);
     EXPECT_TRUE(std::isnan(own.find("sample")->front()));
 }
 
