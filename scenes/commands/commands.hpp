@@ -86,8 +86,6 @@ void run_or_plan(std::span<const Scene> scenes, const RunOptions& options, const
 double signed_argument(const std::string& option, const std::string& text, const Dimension& dimension);
 // Requires the values of a range or list to have a unit each, or none; 0 needs none. Throws UsageError.
 void require_units(const std::string& option, const std::vector<std::string>& values);
-// A quantity that is not negative, read in the same way.
-double quantity_argument(const char* option, const std::string& text, const Dimension& dimension);
 // A positive quantity, read in the same way.
 double positive_argument(const char* option, const std::string& text, const Dimension& dimension);
 // A length of time: turns of the cam if it is a plain number or an angle, or a time.

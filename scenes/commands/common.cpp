@@ -198,14 +198,8 @@ sim::CamSpan span_argument(const char* option, const std::string& text) {
     else if (same(read.quantity->dimension, dimension::kAngle))
         span.turns = std::round(read.quantity->value / (2 * std::numbers::pi) * kParts) / kParts;
     else
-        span.time = quantity_argument(option, text, dimension::kTime);
+        span.time = signed_argument(option, text, dimension::kTime);
     return span;
-}
-
-double quantity_argument(const char* option, const std::string& text, const Dimension& dimension) {
-    const double value = signed_argument(option, text, dimension);
-    if (!(value >= 0)) throw UsageError(fmt::format("{} {}: must not be negative", option, text));
-    return value;
 }
 
 double positive_argument(const char* option, const std::string& text, const Dimension& dimension) {

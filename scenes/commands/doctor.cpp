@@ -12,7 +12,7 @@
 #include "render/gl/renderer.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/motions/fan_out.hpp"
-#include "scenes/motions/fingerprint.hpp"
+#include "scenes/motions/identity.hpp"
 #include "scenes/scene/version.hpp"
 
 namespace beamcam::scenes {

@@ -9,7 +9,6 @@
 #include "scenes/commands/key_options.hpp"
 #include "scenes/format/checks.hpp"
 #include "scenes/format/keys.hpp"
-#include "scenes/outputs/picture_keys.hpp"
 #include "scenes/outputs/run.hpp"
 #include "scenes/plan/plan.hpp"
 #include "scenes/scene/files.hpp"

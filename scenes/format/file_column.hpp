@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "output/data/tables.hpp"
+#include "sim/cam/motion_law.hpp"
 #include "sim/problem/dimension.hpp"
 
 namespace beamcam::scenes {
@@ -29,5 +30,17 @@ FileColumn column_in_si(const output::ColumnTable& table, const std::string& fil
 // None of the numbers is empty.
 FileColumn read_file_column(const std::filesystem::path& file, const std::string& column,
                             const sim::Dimension& dimension, const std::string& unit);
+
+// ---- angles that begin again after a turn, as those of absolute encoders
+
+using sim::kFullTurn;
+
+struct AngleJump {
+    std::size_t row = 0;
+    double angle = 0;  // from the row before [rad]
+};
+// Adds whole turns so that no row is farther than half a turn from the row before, unless the values span more than a
+// turn and so do not wrap. Returns the first jump; nothing: there is none. NaN: no value.
+std::optional<AngleJump> joined_turns(std::vector<double>& angles);
 
 }  // namespace beamcam::scenes

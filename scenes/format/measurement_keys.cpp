@@ -13,7 +13,6 @@
 #include "scenes/format/file_column.hpp"
 #include "scenes/format/object_reader.hpp"
 #include "scenes/format/suggest.hpp"
-#include "scenes/format/wrapped_angles.hpp"
 #include "sim/beam/drive.hpp"
 
 namespace beamcam::scenes {

@@ -10,7 +10,6 @@
 #include "scenes/format/file_column.hpp"
 #include "scenes/format/object_reader.hpp"
 #include "scenes/format/suggest.hpp"
-#include "scenes/format/wrapped_angles.hpp"
 #include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {

@@ -1,5 +1,3 @@
-#include "scenes/outputs/film_setup.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include "render/draw/markup.hpp"
 #include "scenes/figures/caption.hpp"
 #include "scenes/figures/series_data.hpp"
+#include "scenes/outputs/picture_sinks.hpp"
 #include "scenes/plan/resolve.hpp"
 
 namespace beamcam::scenes {

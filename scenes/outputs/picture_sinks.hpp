@@ -1,4 +1,4 @@
-// Destinations of drawn pictures: a video, PNG files, or a command that compares them.
+// Films of a plan, and destinations of their pictures: a video, PNG files, or a command that compares them.
 #pragma once
 
 #include <functional>
@@ -47,6 +47,15 @@ output::VideoOptions video_options(const PictureOutput& p);
 std::unique_ptr<PictureSink> make_video_sink(const PlannedPictures& p, render::Film& film, const SinkFiles& files);
 std::unique_ptr<PictureSink> make_png_sink(const PlannedPictures& p, const SinkFiles& files);
 std::unique_ptr<PictureSink> make_callback_sink(const PlannedPictures& p, const DrawCallbacks& callbacks);
+
+// ---- from the plan and its motions to the input of render/
+
+// `results`: of the motions of this picture; poses and tables are moved out of them.
+render::FilmSetup film_setup(const Plan& plan, const PlannedPictures& p, const Scene& scene,
+                             std::span<sim::Result* const> results);
+
+// "rtol 10⁻⁸ · energy closes to 2 × 10⁻⁹ · bends beyond first-order"
+std::string accuracy_note(const sim::Problem& problem, const sim::Result& result);
 
 // Draws the selected frames of a film on several threads.
 void draw(const PlannedPictures& p, const render::Film& film, PictureSink& sink, RunContext& context);

@@ -7,7 +7,6 @@
 
 #include "render/gl/renderer.hpp"
 #include "scenes/figures/figure_files.hpp"
-#include "scenes/outputs/film_setup.hpp"
 #include "scenes/outputs/picture_sinks.hpp"
 #include "scenes/outputs/scene_run.hpp"
 #include "scenes/scene/files.hpp"

@@ -15,7 +15,6 @@
 #include "render/film/page.hpp"
 #include "render/plot/user_text.hpp"
 #include "scenes/figures/figure_files.hpp"
-#include "scenes/outputs/film_setup.hpp"
 #include "scenes/outputs/picture_sinks.hpp"
 #include "scenes/scene/files.hpp"
 #include "sim/base/counted.hpp"

@@ -8,7 +8,7 @@
 #include "output/files/standard_output.hpp"
 #include "render/base/error.hpp"
 #include "scenes/motions/fan_out.hpp"
-#include "scenes/motions/fingerprint.hpp"
+#include "scenes/motions/identity.hpp"
 #include "scenes/motions/motion_pool.hpp"
 #include "scenes/regression/entry_test.hpp"
 #include "scenes/scene/exit_code.hpp"

@@ -113,6 +113,9 @@ inline std::span<const sim::Named<Story>> names(Story) {
     return all;
 }
 
+// The keys of a film that a story makes, and that may not stand beside it.
+inline constexpr const char* kKeysOfStories[] = {"to", "speed", "duration", "hold", "events"};
+
 // The keys of all pictures.
 struct Picture {
     Size size;

@@ -6,7 +6,7 @@
 
 #include <map>
 
-#include "scenes/motions/fingerprint.hpp"
+#include "scenes/motions/identity.hpp"
 #include "tests/scenes/regression/guarded.hpp"
 
 namespace beamcam::scenes {
