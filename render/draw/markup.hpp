@@ -32,7 +32,8 @@ std::string power_of_ten(int exponent);  // as markup: "10^{−8}"
 
 std::vector<Run> parse_markup(std::string_view markup);
 std::string to_plain(std::string_view markup);
-std::string escaped(std::string_view plain);  // as markup
+std::string to_html(std::string_view markup);  // symbols in italics, scripts raised and lowered
+std::string escaped(std::string_view plain);   // as markup
 std::string xml(std::string_view plain);
 
 }  // namespace beamcam::render

@@ -1,4 +1,4 @@
-// Markup as plain text.
+// Markup as plain text and as HTML.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -57,6 +57,16 @@ std::string to_plain(std::string_view markup) {
         }
         out += text;
         if (run.dots > 0) out += run.dots == 1 ? "\u0307" : "\u0308";
+    }
+    return out;
+}
+
+std::string to_html(std::string_view markup) {
+    std::string out;
+    for (const Run& run : parse_markup(markup)) {
+        const char* script = run.script > 0 ? "sup" : "sub";
+        const std::string text = run.symbol ? "<i>" + xml(run.text) + "</i>" : xml(run.text);
+        out += run.script == 0 ? text : fmt::format("<{0}>{1}</{0}>", script, text);
     }
     return out;
 }

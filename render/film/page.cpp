@@ -277,7 +277,7 @@ std::string html_page(const FilmSetup& setup) {
                                   {"ARROWS", phrase(lang, "Up and Down")},
                                   {"DEFLECTION", phrase(lang, "deflection")},
                                   {"SCALE", moment_scale(context)},
-                                  {"PARAMETERS", xml(to_plain(parameters))},
+                                  {"PARAMETERS", to_html(parameters)},
                                   {"TITLE", setup.title.empty() ? "beamcam" : xml(plain_text(setup.title))},
                                   {"PAPER", hex(p.paper)},
                                   {"INK", hex(p.ink)},

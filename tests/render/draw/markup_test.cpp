@@ -9,6 +9,7 @@ namespace {
 
 TEST(Markup, OneMarkupIsDrawnAndWrittenAsLatexAndPlain) {
     EXPECT_EQ(to_plain("$θ$ / (rad s^{−1})"), "θ / (rad s⁻¹)");
+    EXPECT_EQ(to_html("$c$_{r} < 1, s^{−1}"), "<i>c</i><sub>r</sub> &lt; 1, s<sup>−1</sup>");
     EXPECT_EQ(to_plain("a\\_b\\^\\$c\\\\d"), "a_b^$c\\d");
     const std::vector<render::Run> runs = parse_markup("$x_{\\r{max}}$2");
     ASSERT_EQ(runs.size(), 3u);
