@@ -225,12 +225,12 @@ void Bodies::floor_shadows(SoftShadows& out) const {
     out.ribbon(beam, kOnFloor, 0);
     for (const MechanismShape::Bracket& each : shape_.brackets) {
         const double x = up(each.shaft).x;
-        out.rectangle({x - each.foot, -kMountDepth * wide}, {x + each.foot, kBracketFront * wide}, 40 * u, kContact);
+        out.rectangle({x - each.foot, -kMountDepth * wide}, {x + each.foot, kBracketFront * wide}, 16 * u, kContact);
     }
     const auto below = [&](const Prism& body, double depth) {
         Bounds seen;
         for (const Vec2 p : body.outline) seen.add(p);
-        const double height = std::max(seen.y0 - out.level, 0.0);
+        const double height = std::max((seen.y0 + seen.y1) / 2 - out.level, 0.0);
         const Vec2 at = fall(height), deep{0, depth * wide};
         out.rectangle(Vec2{seen.x0, 0} + at - deep, Vec2{seen.x1, 0} + at + deep, soft(height), kOnFloor);
     };
