@@ -117,6 +117,14 @@ void Painter::arrow(Vec2 from, Vec2 to, const Pen& pen, const ArrowHead& head) {
 
 // ---- painting ----------------------------------------------------------------------------------
 
+void Painter::boxed_text(Vec2 at, std::string_view markup, const TextStyle& style) {
+    const Box ink = measure(markup, style);
+    const double left = style.align == HAlign::left ? 0 : style.align == HAlign::centre ? ink.w / 2 : ink.w;
+    rectangle(Box{at.x - left, at.y + ink.y, ink.w, ink.h}.inset(-0.15 * style.size));
+    fill(style.halo.value());
+    text(at, markup, style);
+}
+
 void Painter::fill(Color c) {
     fill_keeping_path(c);
     new_path();

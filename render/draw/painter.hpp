@@ -54,6 +54,8 @@ class Painter {
     void arrow(Vec2 from, Vec2 to, const Pen& pen, const ArrowHead& head);
     // Draws a text, which is markup (markup.hpp); returns its box.
     virtual Box text(Vec2 at, std::string_view markup, const TextStyle& style) = 0;
+    // Over lines: on a box of the colour of its halo.
+    void boxed_text(Vec2 at, std::string_view markup, const TextStyle& style);
     virtual Box measure(std::string_view markup, const TextStyle& style) const = 0;  // at (0, 0), left, not turned
     double cap_height(double size) const;                                            // of capitals and digits
     void fill(Color color);

@@ -35,7 +35,7 @@ ClockLine::ClockLine(const FilmContext& context) : context_(context) {
     for (int m = 0; m < context.members() && mechanism && !in_chart && setup.view.labelled(); ++m)
         if (!context.motion(m).impacts.empty() && context.scales.largest_force > 0 &&
             context.motion(m).problem.contact.model == sim::ContactModel::compliant) {
-            if (!peaks_) peaks_.emplace(context);
+            if (!peaks_) peaks_.emplace(context, Peaks::Of::collision);
             pills_.push_back({Pill::Kind::peak, peak_text(context, 0.888 * context.scales.force_unit.factor),
                               context.members() > 1 ? context.member_color(m) : context.look.palette.contact, m});
         }

@@ -37,6 +37,8 @@ class CloseUpPanel final : public FilmPanel {
         plot_.place(Canvas(none, *context.fonts), area_);
     }
 
+    double begins() const override { return begins_with_touch(context_); }
+
     void draw_background(Canvas& canvas) const override {
         const bool has_cam = motion().problem.cam.has_value();
         const TextStyle bold{.size = context_.look.letters.heading, .weight = Weight::semibold},
@@ -160,7 +162,7 @@ class CloseUpPanel final : public FilmPanel {
             over.insert(over.end(), under.rbegin(), under.rend());
             canvas.polyline(over);
             canvas.close();
-            canvas.fill(p.tint(p.contact, 0.55));
+            canvas.fill(mix(p.paper, p.contact, 0.55));
             canvas.polyline(rim(pose));  // visible through the beam
             canvas.stroke({p.steel_edge, 2 * u});
         }

@@ -22,14 +22,15 @@ void CloseUpReadings::draw(Canvas& canvas, const sim::Pose& pose, double face) c
     const double u = context.look.unit;
     const bool deep = near.gap < 0;
     const double size = std::abs(near.gap);
-    const std::string amount = size < (unit.factor == 1e-6 ? 0.05 : 1e-3) * unit.factor ? quantity(0, unit, "m", 1)
-                               : unit.factor != 1e-6 || size >= 1                       ? quantity(size, "m")
+    const bool zero = size < (unit.factor == 1e-6 ? 0.05 : 1e-3) * unit.factor;
+    const std::string amount = zero                               ? context.look.translate("touch")
+                               : unit.factor != 1e-6 || size >= 1 ? quantity(size, "m")
                                : size < 1e-3 ? fmt::format("{}\u00A0µm", fixed(size * 1e6, size < 1e-5 ? 1 : 0))
                                              : fmt::format("{}\u00A0mm", fixed(size * 1e3, size < 0.1 ? 1 : 0));
     // The place of the word does not depend on the number. Without room for both words there are symbols, or the colour
     // alone.
     const TextStyle style{.size = context.look.letters.heading,
-                          .color = deep ? p.contact : p.motion,
+                          .color = deep && !zero ? p.contact : p.motion,
                           .weight = Weight::medium,
                           .align = HAlign::right,
                           .tabular = true};
@@ -39,7 +40,7 @@ void CloseUpReadings::draw(Canvas& canvas, const sim::Pose& pose, double face) c
         return canvas.measure("$y$ / µm" + name, style).w + 16 * u + widest <= plot.w;
     };
     canvas.text(right, amount, style);
-    if (fits("$δ$"))
+    if (fits("$δ$") && !zero)
         canvas.text(right - Vec2{widest, 0},
                     fits(context.look.translate("penetration")) ? context.look.translate(deep ? "penetration" : "gap")
                     : deep                                      ? "$δ$"

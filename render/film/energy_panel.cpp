@@ -132,12 +132,12 @@ class EnergyPanel final : public ChartPanel {
         if (context_.members() == 1) return;
         const double u = context_.look.unit;
         const Box plot = plot_area(box_, u, context_.look.letters.words);
-        canvas.text({plot.x + 10 * u, plot.y + 24 * u}, context_.labels[static_cast<std::size_t>(member_)],
-                    {.size = context_.look.letters.words,
-                     .color = context_.look.palette.ink,
-                     .weight = Weight::semibold,
-                     .max_width = plot.w - 20 * u,
-                     .halo = context_.look.palette.paper});
+        canvas.boxed_text({plot.x + 10 * u, plot.y + 24 * u}, context_.labels[static_cast<std::size_t>(member_)],
+                          {.size = context_.look.letters.words,
+                           .color = context_.look.palette.ink,
+                           .weight = Weight::semibold,
+                           .max_width = plot.w - 20 * u,
+                           .halo = context_.look.palette.paper});
     }
     std::vector<double> readings(int) const override { return {}; }
     Box box_;

@@ -54,6 +54,7 @@ struct Film::Prepared {
 
   private:
     bool draw_header(Canvas& canvas) const;
+    bool begins_later(const FilmPanel& panel) const { return panel.begins() > context.clock.at(0); }
 };
 
 // What a thread keeps between frames. A frame is the background with the moving parts on top, unclipped; so its pixels
@@ -82,7 +83,8 @@ bool Film::Prepared::draw_background(Canvas& canvas) const {
     canvas.halo_of_all = context.look.palette.halo_of_all();
     if (!context.setup->view.transparent) canvas.paint(context.look.palette.paper);
     const bool cut = draw_header(canvas);
-    for (const auto& panel : panels) panel->draw_background(canvas);
+    for (const auto& panel : panels)
+        if (!begins_later(*panel)) panel->draw_background(canvas);
     draw_moment_bar(canvas, context);
     return cut;
 }
@@ -158,7 +160,11 @@ bool Film::repeats(int frame) const {
 }
 
 void Film::Prepared::draw_moving(Canvas& canvas, int frame, Style style, std::vector<BodyPicture>& bodies) const {
-    for (std::size_t i = 0; i < panels.size(); ++i) panels[i]->draw(canvas, frame, style, bodies[i]);
+    for (std::size_t i = 0; i < panels.size(); ++i) {
+        if (panels[i]->begins() > context.clock.at(frame)) continue;
+        if (begins_later(*panels[i])) panels[i]->draw_background(canvas);
+        panels[i]->draw(canvas, frame, style, bodies[i]);
+    }
     captions->draw(canvas, frame);
     clock->draw(canvas, frame);
 }

@@ -65,7 +65,7 @@ figure::Series force_curve(const Motion& motion, Range span) {
     return curve;
 }
 
-Peaks::Peaks(const FilmContext& context) : context_(context) {
+Peaks::Peaks(const FilmContext& context, Of part) : context_(context), part_(part) {
     for (int m = 0; m < context.members(); ++m) forces_.push_back(force_curve(context.motion(m), context.clock.span));
 }
 
@@ -75,8 +75,8 @@ Vec2 Peaks::of(int member, double t) const {
     const auto later = std::ranges::upper_bound(impacts, t, {}, &sim::Impact::t_start);
     Vec2 peak{kNan, kNan};
     if (later == impacts.begin()) return peak;
-    auto first = std::prev(later);  // impact of the collision
-    while (first != impacts.begin() && std::prev(first)->collision == first->collision) --first;
+    auto first = std::prev(later);  // the first impact of the part
+    while (first != impacts.begin() && (part_ == Of::film || std::prev(first)->collision == first->collision)) --first;
     const auto see = [&](double at, double value) {
         if (value > 0 && !(value <= peak.y)) peak = {at, value};
     };

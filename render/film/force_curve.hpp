@@ -13,15 +13,17 @@ namespace beamcam::render {
 // of frames. An impact that does not end within the rows gets no peak.
 figure::Series force_curve(const Motion& motion, Range span);
 
-// The largest forces so far of the motions' latest collisions.
+// The largest forces so far: of the motions' latest collisions, or of the whole film.
 class Peaks {
   public:
-    explicit Peaks(const FilmContext& context);
+    enum class Of { collision, film };
+    Peaks(const FilmContext& context, Of part);
     // Instant and force [s, N], by linear interpolation at t; NaN: none.
     Vec2 of(int member, double t) const;
 
   private:
     const FilmContext& context_;
+    Of part_;
     std::vector<figure::Series> forces_;  // of each motion
 };
 

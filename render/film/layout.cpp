@@ -14,6 +14,7 @@ Letters letters_of(double design_pixel) {
     return {34 / 16.0 * words, 20 / 16.0 * words, words};
 }
 
+constexpr int kMostInColumn = 3;                           // mechanisms of a portrait picture
 constexpr double kCaptionBand = 48;                        // height [design px]
 constexpr double kBetweenRows = 24, kBetweenColumns = 30;  // [design px]
 
@@ -146,17 +147,25 @@ Box plot_area(const Box& box, double u, double words) {
 
 LayoutNode standard_grid(int width, int height, const std::vector<PanelSpec>& side, int members) {
     using enum LayoutNode::Kind;
-    constexpr int kRowOfMechanisms = 3;                      // from this number on mechanisms have the whole width
-    constexpr double kBesideCharts = 1.55, kAboveRow = 1.4;  // shares of the mechanisms
+    constexpr int kRowOfMechanisms = 3;  // from this number on mechanisms have the whole width
+    constexpr double kBesideCharts = 1.55, kAboveRow = 1.4, kRowAboveRow = 1.1;  // shares of the mechanisms
     const bool beside = is_wide(width, height) && members < kRowOfMechanisms, tall = is_tall(width, height);
     LayoutNode charts{.kind = beside || tall ? rows : columns};
-    for (const PanelSpec& spec : side) charts.children.push_back({.panel = spec});
+    // A chart in which each motion has a row is higher than others.
+    for (const PanelSpec& spec : side)
+        charts.children.push_back(
+            {.share = charts.kind == rows && shows_peaks(spec) ? 0.5 + 0.5 * members : 1, .panel = spec});
     const double above_charts = std::min(1.3, 2.6 / static_cast<double>(side.size()));
-    const double share = beside ? kBesideCharts : tall ? above_charts : kAboveRow;
+    const double share = beside                       ? kBesideCharts
+                         : tall                       ? above_charts
+                         : members < kRowOfMechanisms ? kAboveRow
+                                                      : kRowAboveRow;
     // Cells of mechanisms are about as wide as high.
     const double part = side.empty() ? 1 : share / (share + 1),
                  shape = beside ? part * width / height : width / (part * height);
-    const int lines = std::max(1, static_cast<int>(std::lround(std::sqrt(members / shape))));
+    const int lines = tall && members <= kMostInColumn
+                          ? members
+                          : std::max(1, static_cast<int>(std::lround(std::sqrt(members / shape))));
     const int across = (members + lines - 1) / lines;
     LayoutNode mechanisms{.kind = rows, .share = share};
     for (int first = 0; first < members; first += across) {
@@ -170,17 +179,27 @@ LayoutNode standard_grid(int width, int height, const std::vector<PanelSpec>& si
     return grid;
 }
 
+// In a portrait picture columns are rows, but not `cells` of mechanisms alone. A stack of three panels needs a larger
+// share of the height than of the width.
+static void stack(LayoutNode& node, bool cells) {
+    using enum LayoutNode::Kind;
+    const auto is_cell = [](const LayoutNode& child) {
+        return child.kind == empty || (child.kind == panel && child.panel.kind == PanelKind::mechanism);
+    };
+    if (cells && std::ranges::all_of(node.children, is_cell)) return;
+    for (LayoutNode& child : node.children) {
+        stack(child, cells);
+        if (node.kind == columns && child.kind == rows)
+            child.share *= std::max(1.0, 0.7 * static_cast<double>(child.children.size()));
+    }
+    if (node.kind == columns) node.kind = rows;
+}
+
 Layout layout(int width, int height, const LayoutNode& user_grid, const Shown& shown) {
     PictureFrame f = picture_frame(width, height, shown);
     LayoutNode grid = user_grid;
-    // Columns of a wide picture become rows in a portrait one.
-    if (grid.kind == LayoutNode::Kind::columns && is_tall(width, height)) {
-        grid.kind = LayoutNode::Kind::rows;
-        // A stack of three panels needs a larger share of the height than of the width.
-        for (LayoutNode& child : grid.children)
-            if (child.kind == LayoutNode::Kind::rows)
-                child.share *= std::max(1.0, 0.7 * static_cast<double>(child.children.size()));
-    }
+    if (is_tall(width, height))
+        stack(grid, std::ranges::count(panels_of(grid), PanelKind::mechanism, &PanelSpec::kind) > kMostInColumn);
     const Box room{f.margin, f.top, f.right - f.margin, f.bottom - f.top};
     place_grid(f.out, grid, room);
     // A picture too small for any panel of the grid shows the mechanism.

@@ -32,6 +32,13 @@ struct PanelSpec {
     bool operator==(const PanelSpec&) const = default;
 };
 
+// A chart of the contact force alone, in which the peaks of collisions have their values and compared motions a row
+// each.
+inline bool shows_peaks(const PanelSpec& spec) {
+    return spec.kind == PanelKind::strip &&
+           spec.channels == std::vector<sim::Channel>{{sim::ChannelKind::contact_force, 0}};
+}
+
 // A grid: a panel, rows or columns of smaller grids that divide the space by their shares, or nothing.
 struct LayoutNode {
     enum class Kind { panel, rows, columns, empty };
@@ -81,8 +88,8 @@ struct Layout {
 // The standard grid: the mechanisms, one for each of `members` motions or a single one with ghosts, and the `side`
 // panels, the most important first: beside up to two mechanisms in a wide picture, else below them.
 LayoutNode standard_grid(int width, int height, const std::vector<PanelSpec>& side, int members = 1);
-// The layout of a picture, width, height >= 1, without the panels that are too small to read. In a portrait picture the
-// outermost columns become rows.
+// The layout of a picture, width, height >= 1, without the panels that are too small to read. In a portrait picture
+// columns become rows, but those of more than three mechanisms.
 Layout layout(int width, int height, const LayoutNode& grid, const Shown& shown = {});
 // All panels of a grid in reading order; those that are too small to read.
 std::vector<PanelSpec> panels_of(const LayoutNode& grid);

@@ -70,8 +70,8 @@ std::optional<double> arc_radius(const MechanismView& home) {
 // The arc ends at the line at θ through the hub, behind the beam. The letter is on the bisector, or as far from the
 // beam as it needs. With the cam on the beam's other side, the arc has the radius at which the letter has room between
 // beam and horizontal.
-void draw_angle(const MechanismScene& s) {
-    if (!s.at.labelled() || !s.at.arc_radius) return;
+std::optional<Vec2> draw_arc_of_angle(const MechanismScene& s) {
+    if (!s.at.labelled() || !s.at.arc_radius) return std::nullopt;
     const double angle = drawn_angle(s.pose);
     double radius = *s.at.arc_radius * s.at.zoom();
     const double way = angle < 0 ? -1 : 1, size = letter_size(s.at);
@@ -79,7 +79,7 @@ void draw_angle(const MechanismScene& s) {
     if (way * s.beam.side < 0)
         radius = std::max(radius, std::min(longest_arc(s.at), (edge + 1.4 * size) / std::abs(angle) - 0.8 * size));
     const double visible = std::abs(angle) - std::asin(std::clamp(edge / radius, 0.0, 1.0));
-    if (visible * radius < 3 * s.at.unit) return;
+    if (visible * radius < 3 * s.at.unit) return std::nullopt;
     const Vec2 o = s.at.px({0, 0});
     const Pen pen{s.at.palette.muted, 1.6 * s.at.unit, {}, Cap::butt};
     s.canvas.clip(s.at.box, [&] {
@@ -89,7 +89,10 @@ void draw_angle(const MechanismScene& s) {
     const double outside = radius + 0.8 * size;
     const double clear = std::asin(std::clamp((edge + 0.7 * size) / outside, 0.0, 1.0));
     const double bisector = way * std::min(std::abs(angle) / 2, std::abs(angle) - clear);
-    const Vec2 middle = s.on(o + down(bisector) * outside);
+    return s.on(o + down(bisector) * outside);
+}
+
+void draw_letter_of_angle(const MechanismScene& s, Vec2 middle) {
     draw_letter(s, middle, middle, "$θ$", s.at.palette.muted);
 }
 

@@ -24,7 +24,9 @@ double arc_before_cam(const sim::Problem& problem);
 // Radius of the arc of θ before the camera that shows everything; none if only a hidden arc would fit [px].
 std::optional<double> arc_radius(const MechanismView& home);
 
-void draw_angle(const MechanismScene& s);
+// The arc, which is behind the beam, and then in front of it the letter at this place.
+std::optional<Vec2> draw_arc_of_angle(const MechanismScene& s);
+void draw_letter_of_angle(const MechanismScene& s, Vec2 middle);
 void draw_cam_speed(const MechanismScene& s);
 void draw_hub_torque(const MechanismScene& s);
 void draw_force(const MechanismScene& s);

@@ -21,8 +21,11 @@ TextStyle name_style(const MechanismView& at, double size) {
 }  // namespace
 
 MechanismLegend::MechanismLegend(const MechanismView& at) : at_(at) {
-    if (!at.names) return;
     const FilmContext& context = at.context;
+    has_bar_ = at.labelled();
+    for (const PanelSlot& slot : context.places.panels)  // the last one has it
+        if (slot.spec.kind == PanelKind::mechanism && !at.whole) has_bar_ = at.labelled() && slot.box == at.box;
+    if (!at.names) return;
     for (int m = 0; m < context.members() && context.members() > 1; ++m)
         if (at.ghosts || m == at.member)
             entries_.push_back({context.member_color(m), context.motion(m).label, 6,
@@ -58,12 +61,13 @@ void MechanismLegend::fit_names(const Canvas& canvas) {
 }
 
 void MechanismLegend::draw(Canvas& canvas, const MechanismView& at) const {
-    if (at_.has_scale_bar()) scale_bar(canvas, at);
+    if (at_.context.setup->view.style != Style::solid) scale_bar(canvas, at);
     names(canvas);
 }
 
 // Its length is round, near a seventh of the view, but hardly shorter than its text.
 void MechanismLegend::scale_bar(Canvas& canvas, const MechanismView& at, const Projection* view) const {
+    if (!has_bar_) return;
     TextStyle style{.size = at_.context.look.letters.words,
                     .color = at_.palette.muted,
                     .align = HAlign::centre,
@@ -72,21 +76,31 @@ void MechanismLegend::scale_bar(Canvas& canvas, const MechanismView& at, const P
     double length = round_down_125(0.17 * at.box.w / scale);  // [m]
     while (canvas.measure(quantity(length, "m"), style).w > 1.1 * length * scale) length = round_up_125(1.01 * length);
     const std::string text = quantity(length, "m");
-    const double w = length * scale;
-    const double middle = at_.box.right() - 5 * u - std::max(w, canvas.measure(text, style).w) / 2;
+    const double w = length * scale, words = canvas.measure(text, style).w;
+    const double middle = at_.box.right() - 5 * u - std::max(w, words) / 2;
     const double floor = at.px({0, 0}).y + floor_depth(at.problem(), at.look.camera, at.look.unit);
-    const double x = middle - w / 2, low = at_.box.bottom() - 8 * u, y = view ? floor : low;
+    const double x = middle - w / 2, y = view ? floor : at_.box.bottom() - 8 * u;
     const auto on = [&](double across, double down) { return at.seen({across, down}, view); };
-    canvas.polyline(std::array{on(x, y - 5 * u), on(x, y), on(x + w, y), on(x + w, y - 5 * u)});
+    std::array line{on(x, y - 5 * u), on(x, y), on(x + w, y), on(x + w, y - 5 * u)};
+    Bounds all;
+    for (const Vec2 p : line) all.add(p);
+    const Box room = view ? at.box.inset(at.fade() + 5 * u) : at_.box;
+    const Vec2 back{std::min(0.0, room.right() - all.x1), std::min(0.0, room.bottom() - all.y1)};
+    for (Vec2& p : line) p += back;
+    canvas.polyline(line);
     canvas.stroke({at_.palette.muted, 1.6 * u, {}, Cap::butt});
-    canvas.text(on(middle, y) - Vec2{0, (view ? 15 : 9) * u}, text, style);
-    if (at_.member > 0 || !(at_.context.scales.largest_force > 0)) return;
-    style.align = HAlign::left;  // the name of the marks on beam and cam
-    const Vec2 left{at_.box.x + 2 * u, low};
+    canvas.text(on(middle, y) + back - Vec2{0, (view ? 15 : 9) * u}, text, style);
+}
+
+void MechanismLegend::name_contacts(Canvas& canvas) const {
+    if (at_.member > 0 || !at_.labelled() || !(at_.context.scales.largest_force > 0)) return;
+    const double u = at_.unit;
+    const Vec2 left{at_.box.x + 2 * u, at_.box.bottom() - 8 * u};
     for (const double k : {0, 1})
         canvas.line(left + Vec2{k * 15 * u, -8 * u}, left + Vec2{(k + 1) * 15 * u, -8 * u},
                     {k > 0 ? at_.palette.contact : at_.palette.ink, 6 * u, {}, Cap::butt});
-    canvas.text(left + Vec2{kNameLine * u + kBesideLine * u, 0}, at_.context.look.translate("contact so far"), style);
+    canvas.text(left + Vec2{kNameLine * u + kBesideLine * u, 0}, at_.context.look.translate("contact so far"),
+                {.size = at_.context.look.letters.words, .color = at_.palette.muted, .halo = at_.palette.paper});
 }
 
 void MechanismLegend::names(Canvas& canvas) const {

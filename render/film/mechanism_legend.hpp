@@ -16,8 +16,10 @@ class MechanismLegend {
   public:
     explicit MechanismLegend(const MechanismView& at);  // `at` must outlive it
     void draw(Canvas& canvas, const MechanismView& at) const;
-    // `view`: of a perspective, in which the bar lies on the floor in the plane of the motion.
+    // Of all mechanisms of a picture, which have one scale. `view`: of a perspective, in which the bar lies on the
+    // floor in the plane of the motion, as far as the panel reaches.
     void scale_bar(Canvas& canvas, const MechanismView& at, const Projection* view = nullptr) const;
+    void name_contacts(Canvas& canvas) const;  // the marks on beam and cam
     bool cuts_names() const { return cuts_names_; }
 
   private:
@@ -35,6 +37,7 @@ class MechanismLegend {
     std::vector<Entry> entries_;
     double size_ = 0;  // of the letters [px]
     bool cuts_names_ = false;
+    bool has_bar_ = true;
 };
 
 }  // namespace beamcam::render

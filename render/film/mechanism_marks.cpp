@@ -8,15 +8,25 @@
 
 namespace beamcam::render {
 
-// Where the name of the line has room in the view: at its end or closer to the hub, on the side of `away`, where the
-// beam is not, and towards the hub, where the trail of the tip is not.
+// The box meets the beam, or the circle that the cam sweeps.
+static bool meets_body(const MechanismScene& s, const Box& box) {
+    const auto inside = [&](const Vec2& p) { return box.contains({s.on(p).x, s.on(p).y, 0, 0}); };
+    if (std::ranges::any_of(s.shape.face, inside) || std::ranges::any_of(s.shape.back, inside)) return true;
+    if (!s.shape.disc) return false;
+    const Vec2 centre = s.on(s.shape.disc->centre),
+               nearest{std::clamp(centre.x, box.x, box.right()), std::clamp(centre.y, box.y, box.bottom())};
+    return norm(nearest - centre) < s.shape.disc->radius;
+}
+
+// Where the name of the line has room in the view: at its end or closer to the hub, on the side of `away` and towards
+// the hub, where the trail of the tip is not; nowhere if it would meet beam or cam.
 static std::optional<Box> box_of_name(const MechanismScene& s, const std::vector<Vec2>& line, Vec2 away, Vec2 size) {
     const Box inside = s.at.box.inset(s.at.fade());
     for (std::size_t i = line.size(); i-- > 0 && !std::isnan(line[i].x);) {
         const Vec2 corner = line[i] + away * (0.6 * size.y);
         const Box box{away.x < 0 ? corner.x - size.x : corner.x, away.y < 0 ? corner.y - size.y : corner.y, size.x,
                       size.y};
-        if (inside.contains(box)) return box;
+        if (inside.contains(box)) return meets_body(s, box) ? std::nullopt : std::optional(box);
     }
     return std::nullopt;
 }

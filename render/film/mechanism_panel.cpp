@@ -83,7 +83,7 @@ void MechanismPanel::draw_still(Canvas& canvas, const MechanismView& at) const {
 
 // ---- moving parts ----------------------------------------------------------------------------
 
-// What a near camera cuts off fades out towards the edges of its panel but the lower one, the more the nearer it is.
+// What a near camera cuts off fades out towards the edges of its view, the more the nearer it is.
 static void fade_edges(Canvas& canvas, const MechanismView& at) {
     constexpr int kSteps = 24;
     const double step = std::round(at.fade() / kSteps);
@@ -92,14 +92,17 @@ static void fade_edges(Canvas& canvas, const MechanismView& at) {
     for (int k = 0; k < kSteps; ++k) {
         const double inner = k * step;
         for (const Box& strip : {Box{b.x + inner, b.y, step, b.h}, Box{b.right() - inner - step, b.y, step, b.h},
-                                 Box{b.x, b.y + inner, b.w, step}}) {
+                                 Box{b.x, b.y + inner, b.w, step}, Box{b.x, b.bottom() - inner - step, b.w, step}}) {
             canvas.erase(strip, 1 - (k + 0.5) / kSteps);
         }
     }
 }
 
 void MechanismPanel::draw(Canvas& canvas, int frame, Style style, BodyPicture& bodies) const {
-    if (!cameras_.moves()) return draw_moving(canvas, at_, frame, style, bodies);
+    if (!cameras_.moves()) {
+        if (is_touched(frame)) legend_.name_contacts(canvas);
+        return draw_moving(canvas, at_, frame, style, bodies);
+    }
     const double presence = cameras_.presence(frame);
     if (presence == 0) return;
     const MechanismView at = cameras_.view(frame);
@@ -109,8 +112,9 @@ void MechanismPanel::draw(Canvas& canvas, int frame, Style style, BodyPicture& b
             draw_moving(canvas, at, frame, style, bodies);
             fade_edges(canvas, at);
         });
-        legend_.draw(canvas, at);
     });
+    legend_.draw(canvas, at);
+    if (is_touched(frame)) legend_.name_contacts(canvas);
 }
 
 void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int frame, Style style,
@@ -123,10 +127,10 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
     if (s.view) {
         const Vec2 o = at.px({0, 0});
         canvas.clip(at.box, [&] { canvas.line(s.on(o), s.on({at.box.right(), o.y}), horizontal_pen(at)); });
-        if (at.labelled()) legend_.scale_bar(canvas, at, s.view);
+        legend_.scale_bar(canvas, at, s.view);
     }
     draw_undeflected(s);
-    draw_angle(s);
+    const std::optional<Vec2> theta = draw_arc_of_angle(s);
     tip_path_.draw_trail(s);
     canvas.without_halo([&] {
         if (!s.view || style == Style::solid) {  // else only the labels are needed
@@ -135,6 +139,7 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
         }
         draw_beam_trace(s, trace);
     });
+    if (theta) draw_letter_of_angle(s, *theta);
     if (at.ghosts) draw_ghost_outlines(s);
     if (at.member == 0) draw_measured_beams(s);
     draw_cam_speed(s);

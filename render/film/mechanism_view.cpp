@@ -34,8 +34,7 @@ void MechanismView::place_camera() {
     // A beam thinner than a line is drawn with the width of a line, which it gains on the side away from the cam.
     const auto as_deep_as = [&](const ViewExtent& extent) {
         const double label = !names ? 0 : (box.h > 200 * unit ? 38 : 28) * unit;
-        const double scale_bar = has_scale_bar() ? context.look.letters.words : 0;
-        look.camera = extent.camera({box.x, box.y + label, box.w, box.h - label - scale_bar}, unit);
+        look.camera = extent.camera({box.x, box.y + label, box.w, box.h - label - line_below()}, unit);
         look.depth = std::max(beam_depth(problem().beam), 10 * unit / look.camera.scale);
     };
     as_deep_as(context.extent);
@@ -50,6 +49,7 @@ MechanismView MechanismView::with_camera(const CameraFrame& frame_camera) const 
     out.look.unit = unit * frame_camera.zoom;
     out.wide = wide * frame_camera.zoom;
     out.moved = true;
+    out.box.h -= 1.6 * line_below();
     return out;
 }
 

@@ -30,9 +30,8 @@ struct MechanismView {
     double marks = 1;  // the same for marks on the mechanism (mark_unit) [px]
     bool small;
     bool whole;  // the camera does not move: it shows everything
-    bool has_scale_bar() const {
-        return box.w >= 300 * unit && box.h >= 220 * unit && labelled() && context.setup->view.style != Style::solid;
-    }
+    // Of the line below the mechanism, with scale bar and the name of the marks [px].
+    double line_below() const { return labelled() ? context.look.letters.words : 0; }
     bool labelled() const { return !small && context.setup->view.labelled(); }
     MechanismLook look;
     double wide;  // width of the beam across the plane of motion, in the solid view [px]

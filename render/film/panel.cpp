@@ -21,11 +21,6 @@ using sim::Channel;
 using sim::ChannelKind;
 using sim::Pose;
 
-bool has_force(const Motion& motion) {
-    const auto* force = column(motion.chart, {ChannelKind::contact_force, 0});
-    return force && std::ranges::any_of(*force, [](double v) { return v > 0; });
-}
-
 // A deflection with more periods than a chart can show, of a fifth of its range or more, has a window of some of them.
 std::optional<double> window_of(const sim::Table& chart, const std::vector<Channel>& channels) {
     constexpr int kMost = 30, kShown = 8;
@@ -46,11 +41,12 @@ std::optional<double> window_of(const sim::Table& chart, const std::vector<Chann
 
 std::vector<PanelSpec> standard(const FilmSetup& setup) {
     const Motion* shown = &setup;  // a motion with a cam, if there is one
-    bool force = has_force(setup);
+    double touch = first_touch(setup);
     for (const Motion& other : setup.others) {
         if (!shown->problem.cam) shown = &other;
-        force = force || has_force(other);
+        touch = std::min(touch, first_touch(other));
     }
+    const bool touched = touch <= setup.time(setup.frames() - 1);
     // A still of an instant in contact shows that collision, as slow motion does.
     const bool still = setup.frames() == 1, in_contact = setup.pose(0).nearest && setup.pose(0).nearest->touching;
     std::vector<PanelSpec> specs =
@@ -58,10 +54,10 @@ std::vector<PanelSpec> standard(const FilmSetup& setup) {
     for (PanelSpec& s : specs) s.window = window_of(setup.chart, s.channels);
     // Panels without data are removed.
     std::erase_if(specs, [&](const PanelSpec& s) {
-        if (s.kind == PanelKind::close_up) return !setup.others.empty() || (still && !in_contact);
+        if (s.kind == PanelKind::close_up) return !setup.others.empty() || !touched || (still && !in_contact);
         const ChannelKind kind = s.channels.front().kind;
         return (kind == ChannelKind::tip_deflection && !column(setup.chart, s.channels.front())) ||
-               (kind == ChannelKind::contact_force && !force);
+               (kind == ChannelKind::contact_force && !touched);
     });
     if (setup.view.shot.zoom > 1 && setup.others.empty()) specs.insert(specs.begin(), {.kind = PanelKind::overview});
     return specs;
@@ -71,13 +67,17 @@ std::vector<PanelSpec> standard(const FilmSetup& setup) {
 
 std::vector<PanelSpec> standard_panels(const sim::Problem& problem, bool slow_motion) {
     const auto strip = [](ChannelKind kind) { return PanelSpec{.kind = PanelKind::strip, .channels = {{kind, 0}}}; };
-    if (!problem.cam) return {strip(ChannelKind::theta), strip(ChannelKind::tip_deflection)};
+    // The angle of a hub that does not turn is no motion.
+    const auto* driven = std::get_if<sim::ConstantSpeed>(&problem.hub.drive);
+    const bool held = driven && driven->speed == 0;
+    const PanelSpec motion = strip(held ? ChannelKind::tip_deflection : ChannelKind::theta);
+    if (!problem.cam) return held ? std::vector{motion} : std::vector{motion, strip(ChannelKind::tip_deflection)};
     // Impulses have no force that a chart could show.
     const bool impulses = problem.contact.model == sim::ContactModel::restitution;
     PanelSpec contact = strip(impulses ? ChannelKind::gap : ChannelKind::contact_force);
     contact.by_collision = slow_motion && !impulses;
-    if (slow_motion) return {strip(ChannelKind::theta), contact, {.kind = PanelKind::close_up}};
-    return {strip(ChannelKind::theta), contact};
+    if (slow_motion) return {motion, contact, {.kind = PanelKind::close_up}};
+    return {motion, contact};
 }
 
 std::vector<Channel> chart_channels(const std::vector<PanelSpec>& panels) {
@@ -304,6 +304,21 @@ const std::vector<double>* column(const sim::Table& table, Channel channel) {
     for (std::size_t c = 0; c < table.channels.size(); ++c)
         if (table.channels[c] == channel && c < table.values.size()) return &table.values[c];
     return nullptr;
+}
+
+double first_touch(const Motion& motion) {
+    return motion.impacts.empty() ? std::numeric_limits<double>::infinity() : motion.impacts.front().t_start;
+}
+
+double first_touch(const FilmContext& context) {
+    double touch = std::numeric_limits<double>::infinity();
+    for (int m = 0; m < context.members(); ++m) touch = std::min(touch, first_touch(context.motion(m)));
+    return touch;
+}
+
+double begins_with_touch(const FilmContext& context) {
+    const double touch = first_touch(context);
+    return touch <= context.clock.at(context.frames() - 1) ? touch : -std::numeric_limits<double>::infinity();
 }
 
 double value_at(const std::vector<double>& times, const std::vector<double>& values, double t) {

@@ -116,6 +116,9 @@ class FilmPanel {
 
     virtual void draw_background(Canvas& canvas) const = 0;
 
+    // The panel is empty before this instant [s].
+    virtual double begins() const { return -std::numeric_limits<double>::infinity(); }
+
     virtual bool cuts_names() const { return false; }  // of motions
 
     // The panel changes between the previous frame and this one even if both show the same instant.
@@ -134,6 +137,10 @@ std::unique_ptr<FilmPanel> make_panel(const FilmContext& context, const PanelSlo
 
 double first_period(const sim::Problem& problem);  // of the natural vibrations; infinity for a rigid beam [s]
 
+double first_touch(const Motion& motion);        // [s]; infinity: none
+double first_touch(const FilmContext& context);  // of all motions
+// That touch, from which panels of the contact are shown; they always are in a film without one [s].
+double begins_with_touch(const FilmContext& context);
 // The column of a channel; null if the table has none.
 const std::vector<double>* column(const sim::Table& table, sim::Channel channel);
 // Linear interpolation in an increasing column of times; NaN outside and beside undefined rows.

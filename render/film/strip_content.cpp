@@ -274,7 +274,6 @@ ChartContent strip_content(const FilmContext& context, const PanelSpec& spec) {
     }
     if (const std::string limit = add_sticking(context, spec, c); !limit.empty())
         symbols = colored(symbols, readable(p, color_of(c.panel.series.front()))) + limit;
-    if (shows_peaks(spec)) c.peak = context.look.translate("collision peak") + "\u00A0";
     if (shows_peaks(spec) || (spec.by_collision && single)) c.rows = static_cast<std::size_t>(context.members());
     Range values = range_of(context, spec, c.panel.series);
     if (single && dotted) values = add_places(context, shown_time(context, spec), c);

@@ -15,12 +15,6 @@ std::optional<Color> energy_color(const Palette& palette, sim::ChannelKind kind)
 ChartContent blank_content(const FilmContext& context, const PanelSpec& spec, int member);
 // A chart with the curves of a strip's channels for all motions.
 ChartContent strip_content(const FilmContext& context, const PanelSpec& spec);
-// A chart of the contact force alone, in which the peaks of collisions have their values and compared motions a row
-// each.
-inline bool shows_peaks(const PanelSpec& spec) {
-    return spec.kind == PanelKind::strip &&
-           spec.channels == std::vector<sim::Channel>{{sim::ChannelKind::contact_force, 0}};
-}
 // The value of a channel at a frame; NaN: undefined.
 double reading(const FilmContext& context, int member, int frame, sim::Channel channel);
 

@@ -20,7 +20,7 @@ class StripPanel final : public ChartPanel {
   public:
     StripPanel(const FilmContext& context, const PanelSlot& slot)
         : ChartPanel(context, strip_content(context, slot.spec), slot.box), spec_(slot.spec) {
-        if (shows_peaks(spec_) && context.setup->view.labelled()) peaks_.emplace(context);
+        if (shows_peaks(spec_) && context.setup->view.labelled()) peaks_.emplace(context, Peaks::Of::film);
     }
 
   private:
@@ -47,9 +47,10 @@ class StripPanel final : public ChartPanel {
 // the first one its axes. All collisions share the axis of values.
 class CollisionPanel final : public FilmPanel {
   public:
-    CollisionPanel(const FilmContext& context, const PanelSlot& slot) : context_(context), spec_(slot.spec) {
+    CollisionPanel(const FilmContext& context, const PanelSlot& slot)
+        : context_(context), spec_(slot.spec), whole_(context, over_film(slot)) {
         for (int m = 0; m < context.members(); ++m) collisions_.push_back(collisions_of(m));
-        if (shows_peaks(spec_) && context.setup->view.labelled()) peaks_.emplace(context);
+        if (shows_peaks(spec_) && context.setup->view.labelled()) peaks_.emplace(context, Peaks::Of::collision);
         content_ = strip_content(context, spec_);
         content_.panel.events.clear();
         content_.past_only =
@@ -61,11 +62,16 @@ class CollisionPanel final : public FilmPanel {
                 charts_.try_emplace(latest, content_of(latest), slot.box, plot, chart_style(context), *context.fonts);
     }
 
+    double begins() const override { return begins_with_touch(context_); }
     void draw_background(Canvas&) const override {}
 
-    void draw(Canvas& canvas, int frame, Style, BodyPicture&) const override {
+    void draw(Canvas& canvas, int frame, Style style, BodyPicture& bodies) const override {
         const double now = context_.clock.at(frame);
         const Latest latest = latest_at(now);
+        if (outlasts_window(latest, now)) {
+            whole_.draw_background(canvas);
+            return whole_.draw(canvas, frame, style, bodies);
+        }
         const Chart& chart = charts_.at(latest);
         chart.draw_background(canvas);
         std::vector<double> times, readings;
@@ -88,6 +94,10 @@ class CollisionPanel final : public FilmPanel {
   private:
     // Of a contact that lasts, only the beginning counts as a collision [s].
     static constexpr double kLasting = 1, kShown = 0.1;
+    static PanelSlot over_film(PanelSlot slot) {
+        slot.spec.by_collision = false;
+        return slot;
+    }
     struct Collision {
         Range span;
         double shown = 0;  // end of its time axis
@@ -121,6 +131,14 @@ class CollisionPanel final : public FilmPanel {
         const auto member = static_cast<std::size_t>(m);
         return collisions_[member].empty() ? nullptr : &collisions_[member][latest[member]];
     }
+    // Every motion is in a contact that lasts, of which its chart does not show this instant.
+    bool outlasts_window(const Latest& latest, double now) const {
+        for (int m = 0; m < context_.members(); ++m)
+            if (const Collision* own = collision(latest, m);
+                !own || now > own->span.high || now <= own->span.low + time_of(*own).high)
+                return false;
+        return true;
+    }
     double touch_of(const Latest& latest, int m) const {
         const Collision* own = collision(latest, m);
         return own ? own->span.low : 2 * context_.clock.span.high;  // after the film
@@ -128,14 +146,7 @@ class CollisionPanel final : public FilmPanel {
 
     // The time axis of a collision, from its first touch.
     Range time_of(const Collision& each) const {
-        const Range& span = each.span;
-        const double length = each.shown - span.low, m = std::clamp(0.15 * length, 1.5e-5, 0.01);
-        // If that is over before the film begins, or before the instant of a still, the contact after it is shown.
-        const double first = context_.clock.at(0), shown_until = span.low + length + m;
-        if (context_.frames() == 1 && first > shown_until && first <= span.high)
-            return {first - kShown - span.low, first - span.low};
-        if (context_.clock.span.low > shown_until && span.high > context_.clock.span.low)
-            return {context_.clock.span.low - span.low, std::min(span.high, context_.clock.span.high) - span.low};
+        const double length = each.shown - each.span.low, m = std::clamp(0.15 * length, 1.5e-5, 0.01);
         return {-m, length + m};
     }
 
@@ -171,6 +182,7 @@ class CollisionPanel final : public FilmPanel {
     ChartContent content_;
     std::vector<figure::Series> curves_;
     std::map<Latest, Chart> charts_;  // of the collisions that frames show
+    StripPanel whole_;                // after the window of a contact that lasts
 };
 
 }  // namespace

@@ -50,13 +50,15 @@ Chart::Chart(ChartContent content, const Box& box, const Box& plot, const figure
     if (!windowed() && !c_.past_only) draw_whole_past(fonts);
 }
 
-// Rows that would be too low are one. All have the same axes.
+// Rows that would be too low are one, whose curves are not filled. All have the same axes.
 void Chart::make_rows(const Fonts& fonts) {
     const auto wanted = static_cast<double>(c_.rows);
     const double gap = std::round(kBetweenRows * style_.numbers), high = std::floor((area_.h + gap) / wanted - gap);
     const std::size_t rows = high < kLowestRow * style_.numbers ? 1 : c_.rows;
     for (std::size_t k = 0; k < rows; ++k) {
         figure::Panel& row = panels_.emplace_back(c_.panel);
+        if (rows < c_.rows)
+            for (figure::Series& curve : row.series) curve.filled = false;
         if (rows == 1) break;
         row.series.assign(c_.panel.series.begin() + std::ptrdiff_t(rows), c_.panel.series.end());
         row.series.push_back(c_.panel.series[k]);
@@ -123,8 +125,7 @@ void Chart::draw_moving(Canvas& canvas, double t, std::span<const double> readin
         const Box box = past_box();
         from = std::max<double>(over ? std::lround(area_.right() + 1) : past_column(t), box.x);
         canvas.image_part(past_, static_cast<int>(box.x), static_cast<int>(box.y), {0, 0, from - box.x, box.h});
-        if (over)
-            return draw_readings(canvas, reading_texts(canvas, {}, draw_peaks(canvas, plots_, {&from, 1}, peaks)));
+        if (over) return draw_peaks(canvas, plots_, {&from, 1}, peaks);
     }
     std::vector<figure::Plot> moved;  // the window
     if (windowed()) moved = plots_;
@@ -142,7 +143,8 @@ void Chart::draw_moving(Canvas& canvas, double t, std::span<const double> readin
                                 std::min(t, view.high), true};
     canvas.clip({from, top, cut - from, past_box().h}, [&] { draw_all(canvas, shown, past); });
     if (!over) draw_cursor(canvas, cut - 0.5, area_, readings);
-    draw_readings(canvas, reading_texts(canvas, readings, draw_peaks(canvas, shown, {&cut, 1}, peaks)));
+    draw_peaks(canvas, shown, {&cut, 1}, peaks);
+    draw_readings(canvas, readings);
 }
 
 void Chart::draw_rows(Canvas& canvas, std::span<const double> times, std::span<const double> readings,
@@ -160,7 +162,8 @@ void Chart::draw_rows(Canvas& canvas, std::span<const double> times, std::span<c
         if (!(t > time().high))
             draw_cursor(canvas, cuts[k] - 0.5, row, plots_.size() > 1 ? readings.subspan(k, 1) : readings, k);
     }
-    draw_readings(canvas, reading_texts(canvas, readings, draw_peaks(canvas, plots_, cuts, peaks)));
+    draw_peaks(canvas, plots_, cuts, peaks);
+    draw_readings(canvas, readings);
 }
 
 void Chart::draw_cursor(Canvas& canvas, double x, const Box& along, std::span<const double> readings,
@@ -179,15 +182,12 @@ void Chart::draw_cursor(Canvas& canvas, double x, const Box& along, std::span<co
     }
 }
 
-// Centred above its own peak, if that does not read zero. Returns the values that do not fit there: between the axis
-// and the cursor, below the heading or the row above, with nothing higher of the curve under them, in a row of their
-// own.
-std::vector<double> Chart::draw_peaks(Canvas& canvas, const std::vector<figure::Plot>& rows,
-                                      std::span<const double> cursors, std::span<const Vec2> peaks) const {
+// Centred above its own peak, if that does not read zero and the number has room: between the axis and the cursor,
+// below the heading or the row above, with nothing higher of the curve under it, in a row of its own.
+void Chart::draw_peaks(Canvas& canvas, const std::vector<figure::Plot>& rows, std::span<const double> cursors,
+                       std::span<const Vec2> peaks) const {
     const double size = style_.numbers;
-    std::vector<double> left_out;
-    for (std::size_t i = 0; i < peaks.size(); ++i) {
-        left_out.push_back(kNan);
+    for (std::size_t i = 0; i < peaks.size() && c_.rows == rows.size(); ++i) {
         if (!(plots_[0].y().tick_value(peaks[i].y) >= 0.5 * ten_to(-digits_))) continue;
         const figure::Plot& row = row_of(rows, i);
         const Vec2 at = row.at(peaks[i].x, peaks[i].y);
@@ -199,15 +199,12 @@ std::vector<double> Chart::draw_peaks(Canvas& canvas, const std::vector<figure::
                               .halo = palette_.paper};
         const std::string text = reading_text(peaks[i].y);
         const double half = canvas.measure(text, style).w / 2;
-        bool fits = c_.rows == rows.size() && at.x - half >= area_.x && at.x + half <= end &&
-                    at.y - kAbovePeak * size >= row.box().y;
+        bool fits = at.x - half >= area_.x && at.x + half <= end && at.y - kAbovePeak * size >= row.box().y;
         const figure::Series& curve = c_.panel.series[i];
         for (std::size_t k = 0; k < curve.x.size() && fits; ++k)
             fits = !(curve.y[k] > peaks[i].y && std::abs(row.at(curve.x[k], 0).x - at.x) < half);
         if (fits) canvas.text(at - Vec2{0, 0.45 * size}, text, style);
-        if (!fits) left_out.back() = peaks[i].y;
     }
-    return left_out;
 }
 
 // ---- the heading's line ------------------------------------------------------------------------
@@ -234,17 +231,23 @@ std::string Chart::heading_text(Canvas& canvas) const {
     return first_that_fits(canvas, {c_.words + name, c_.short_words + name, name}, heading_style(), room);
 }
 
-// In the unit of the axis, with the decimals that its ticks ask for.
+// In the unit of the axis, with the decimals that its ticks ask for. On an axis without negative values only zero and
+// rounding read zero: a smaller value than the last decimal shows is "<0.01".
 std::string Chart::reading_text(double value) const {
+    constexpr double kRounding = 1e-9;  // of the axis
     const std::string unit = plots_[0].y().unit();
-    const double number = plots_[0].y().tick_value(value);
-    return fixed(number, digits_) + (unit.empty() || unit == "°" ? unit : "\u00A0" + unit);
+    const double number = plots_[0].y().tick_value(value), least = ten_to(-digits_);
+    const bool small = c_.values().low == 0 && value > kRounding * c_.values().high && number < 0.5 * least;
+    return (small ? "<" + fixed(least, digits_) : fixed(number, digits_)) +
+           (unit.empty() || unit == "°" ? unit : "\u00A0" + unit);
 }
 
 double Chart::widest_reading(Canvas& canvas) const {
     const TextStyle style = reading_style({});
-    return std::max(canvas.measure(reading_text(c_.values().high), style).w,
-                    canvas.measure(reading_text(c_.values().low), style).w);
+    double widest = 0;
+    for (const double value : {c_.values().low, c_.values().high, 1e-6 * c_.values().high})
+        widest = std::max(widest, canvas.measure(reading_text(value), style).w);
+    return widest;
 }
 
 // The name before a reading, or alone without its colon.
@@ -264,23 +267,8 @@ double Chart::reading_width(Canvas& canvas, bool names, bool values) const {
     return all;
 }
 
-// The readings, and where the force is zero, the peaks that are left out in the chart, if there is room.
-std::vector<std::string> Chart::reading_texts(Canvas& canvas, std::span<const double> readings,
-                                              std::span<const double> left_out) const {
-    double room = area_.w - canvas.measure(heading_text(canvas), heading_style()).w - reading_width(canvas, true, true);
-    std::vector<std::string> texts;
-    for (std::size_t i = 0; i < std::max(readings.size(), left_out.size()); ++i) {
-        const double v = i < readings.size() ? readings[i] : kNan, peak = i < left_out.size() ? left_out[i] : kNan;
-        const double wide = canvas.measure(c_.peak, reading_style({})).w;
-        const bool shows_peak = !std::isnan(peak) && !(v > 0) && wide <= room;
-        if (shows_peak) room -= wide;
-        texts.push_back(shows_peak ? c_.peak + reading_text(peak) : std::isnan(v) ? "" : reading_text(v));
-    }
-    return texts;
-}
-
 // At the right end, that of the last curve outermost; without names, or names alone, if there is no room for both.
-void Chart::draw_readings(Canvas& canvas, const std::vector<std::string>& readings) const {
+void Chart::draw_readings(Canvas& canvas, std::span<const double> readings) const {
     const double u = style_.unit;
     const double room = area_.w - canvas.measure(plots_[0].y().name(), heading_style()).w, baseline = box_.y + 26 * u;
     const bool named = reading_width(canvas, true, true) <= room;
@@ -293,7 +281,8 @@ void Chart::draw_readings(Canvas& canvas, const std::vector<std::string>& readin
         const std::string label = has_name ? name_of(c_.panel.series[i], named) : std::string();
         TextStyle style = reading_style(readable(palette_, reading_color(i)));
         // A name without a value would look like an error.
-        const std::string number = names_only ? "" : readings[i].empty() && !label.empty() ? "–" : readings[i];
+        const bool none = std::isnan(readings[i]);
+        const std::string number = names_only || (none && label.empty()) ? "" : none ? "–" : reading_text(readings[i]);
         const double wide = canvas.measure(number, style).w;
         if (!names_only && !label.empty()) style.align = HAlign::left, right -= std::max(widest, wide);
         canvas.text({right, baseline}, number, style);

@@ -29,7 +29,6 @@ struct ChartContent {
     figure::Panel panel = {};           // x is time [s]
     std::optional<double> window = {};  // [s]
     bool names_first = false;  // rather the names of the curves than their readings, if only one of them has room
-    std::string peak = {};     // before a peak among the readings: "peak "; empty: there are no peaks
     std::size_t rows = 1;      // the first curves that have a row each, where there is room; the others are in all rows
 
     Range time() const { return {*panel.x.from, *panel.x.to}; }
@@ -65,8 +64,8 @@ class Chart {
         return {around.x, around.y, around.w, around.h - kAround + std::ceil(plots_[0].numbers_below())};
     }
     void make_rows(const Fonts& fonts);
-    std::vector<double> draw_peaks(Canvas& canvas, const std::vector<figure::Plot>& rows,
-                                   std::span<const double> cursors, std::span<const Vec2> peaks) const;
+    void draw_peaks(Canvas& canvas, const std::vector<figure::Plot>& rows, std::span<const double> cursors,
+                    std::span<const Vec2> peaks) const;
     // The first column that may hold future at t: the stroke of a later row may reach into it.
     int past_column(double t) const;
     void draw_whole_past(const Fonts& fonts);
@@ -83,9 +82,7 @@ class Chart {
     std::string heading_text(Canvas& canvas) const;
     std::string reading_text(double value) const;
     double widest_reading(Canvas& canvas) const;  // [px]
-    std::vector<std::string> reading_texts(Canvas& canvas, std::span<const double> readings,
-                                           std::span<const double> left_out) const;
-    void draw_readings(Canvas& canvas, const std::vector<std::string>& readings) const;
+    void draw_readings(Canvas& canvas, std::span<const double> readings) const;
     double reading_width(Canvas& canvas, bool names, bool values) const;  // of all readings together [px]
 
     ChartContent c_;

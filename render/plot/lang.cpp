@@ -97,6 +97,7 @@ constexpr Phrase kPhrases[] = {
     {"hub of the bent beam", "弯曲梁的轮毂"},
     {"cam", "凸轮"},
     {"gap", "间隙"},
+    {"touch", "相触"},
     // the page
     {"The mechanism", "机构"},
     {"Instant", "时刻"},

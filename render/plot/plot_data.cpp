@@ -126,7 +126,7 @@ void Plot::draw_spans(Painter& on, const Interval& part, bool names) const {
             on.rectangle({from, box_.y + shift_.y, to - from, box_.h});
             on.fill(span.color);
         } else if (has_name && middle + wide / 2 <= to)
-            on.text({middle, box_.y + shift_.y + 0.9 * style_->numbers}, span.label, text);
+            on.boxed_text({middle, box_.y + shift_.y + 0.9 * style_->numbers}, span.label, text);
     }
 }
 

@@ -188,12 +188,13 @@ TEST(Peaks, AreThoseOfTheLatestCollision) {
     setup.trace.values.assign(setup.trace.values.size(), {0, 0});
     setup.trace.values[0] = {0, 2};
     const FilmContext context(std::make_shared<const FilmSetup>(setup));
-    const Peaks peaks(context);
+    const Peaks peaks(context, Peaks::Of::collision);
     EXPECT_TRUE(std::isnan(peaks.of(0, 0.28).y));
     EXPECT_EQ(peaks.of(0, 0.32).y, 100);
     EXPECT_NEAR(peaks.of(0, 0.32).x, 0.3005, 1e-9);
     EXPECT_EQ(peaks.of(0, 0.5).y, 100);  // of the whole collision
     EXPECT_EQ(peaks.of(0, 1.7).y, 50);
+    EXPECT_EQ(Peaks(context, Peaks::Of::film).of(0, 1.7).y, 100);
 }
 
 // A collision before the film has none.
@@ -201,7 +202,7 @@ TEST(Peaks, BelongToTheFilm) {
     FilmSetup setup = test::flat_film({.duration = 2}, 640, 360);
     setup.impacts = {brief_impact(-0.3, 100)};
     const FilmContext context(std::make_shared<const FilmSetup>(setup));
-    EXPECT_TRUE(std::isnan(Peaks(context).of(0, 0).y));
+    EXPECT_TRUE(std::isnan(Peaks(context, Peaks::Of::collision).of(0, 0).y));
 }
 
 // While a contact lasts, its peak is the largest force so far.
@@ -217,7 +218,7 @@ TEST(Peaks, OfAContactThatLastsGrow) {
         setup.trace.values[3].back() = 100 * std::sin(std::numbers::pi * (t - 0.3) / 0.3);
     }
     const FilmContext context(std::make_shared<const FilmSetup>(setup));
-    const Peaks peaks(context);
+    const Peaks peaks(context, Peaks::Of::collision);
     EXPECT_NEAR(peaks.of(0, 0.4).y, 50 * std::sqrt(3), 1);
     EXPECT_NEAR(peaks.of(0, 0.55).y, 100, 1);
     EXPECT_EQ(peaks.of(0, 2.0 / 3).y, 100);
