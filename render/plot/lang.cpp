@@ -125,7 +125,6 @@ constexpr Phrase kPhrases[] = {
     {"impacts per period, or per turn of the cam", "每周期（或每转）碰撞次数"},
     {"largest exponent / s^{−1}", "最大 Lyapunov 指数 / s^{−1}"},
     {"mean of {}", "平均 {}"},
-    {"phase of the cam", "凸轮相位"},
     {"run time / ms", "计算时间 / ms"},
     {"turns of the cam", "凸轮转数"},
     {"{}, impact $k$", "{}，第 $k$ 次冲击"},

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "scenes/figures/axis_labels.hpp"
 #include "scenes/figures/figure_types.hpp"
@@ -21,13 +20,6 @@ Panel map_panel(std::string title, std::string caption, std::string x_label, std
             .series = {{.line = false, .every_point = true}},
             .legend = false};
 }
-
-// The phase of the cam in turns, 0…1.
-double phase_of(const sim::Impact& hit) {
-    const double turns = hit.cam_angle / (2 * std::numbers::pi);
-    return turns - std::floor(turns);
-}
-constexpr const char* kPhaseLabel = "$φ$ / (2π)";
 
 // Ratios above the first have a logarithmic axis: a slow touch can leave much faster than it came. So have speeds whose
 // ratio is above the second: most impacts of a collision are slow.
@@ -50,19 +42,21 @@ std::vector<Panel> impact_maps(const Subject& subject, const sim::Result& result
     const auto speed = [](const char* of) { return axis_label(of, "m/s"); };
     const Measure turning = measure_in(units, "rad/s");
     const double law = problem.contact.restitution;
+    const std::string turn = phrase(lang, "cam phase / turn");
     Panel loss = map_panel(phrase(lang, "restitution"),
                            "restitution $c$ of the point of contact, dashed: the contact law's " + number(law, 3) +
                                ", and 1, above which the vibration or the cam adds speed",
                            speed("$v$"), "$c$"),
           next = map_panel(phrase(lang, "next collision"), "approach speeds of successive collisions, grey: equal ones",
                            speed("$v_{k}$"), speed("$v_{k+1}$")),
-          phase = map_panel(phrase(lang, "approach speed"), "approach speed by the phase $φ$ of the cam", kPhaseLabel,
-                            speed("$v$")),
-          hub = map_panel(phrase(lang, "hub speed"), "hub speed", kPhaseLabel, axis_label("$\\dot{θ}$", turning.unit));
+          phase =
+              map_panel(phrase(lang, "approach speed"), "approach speed by the phase of the cam", turn, speed("$v$")),
+          hub = map_panel(phrase(lang, "hub speed"), "hub speed", turn, axis_label("$\\dot{θ}$", turning.unit));
     for (const sim::Impact& hit : strikes(problem, result.impacts, from, to)) {
         if (hit.restitution) loss.series[0].add(std::abs(hit.v_n_before), *hit.restitution);
-        phase.series[0].add(phase_of(hit), std::abs(hit.v_n_before));
-        if (hit.at_touch) hub.series[0].add(phase_of(hit), turning.factor * hit.at_touch->theta_dot);
+        const double at = std::fmod(hit.t_start / sim::cam_period(problem), 1);
+        phase.series[0].add(at, std::abs(hit.v_n_before));
+        if (hit.at_touch) hub.series[0].add(at, turning.factor * hit.at_touch->theta_dot);
     }
     const std::vector<sim::Collision> all = strikes(problem, result.collisions, from, to);
     for (std::size_t k = 0; k + 1 < all.size(); ++k)

@@ -27,7 +27,6 @@ SeriesAbscissa::SeriesAbscissa(const SeriesKeys& keys, Lang lang)
       unit_(keys.x_unit),
       lang_(lang) {
     if (const auto named = sim::channel_named(against_); named && named->kind != ChannelKind::t) channel_ = *named;
-    if (is_phase()) channel_ = Channel{ChannelKind::cam_angle, 0};
 }
 
 std::vector<double> SeriesAbscissa::of(const sim::Table& table, const sim::Problem& problem) const {
@@ -45,7 +44,7 @@ std::optional<std::vector<double>> SeriesAbscissa::of(const Measurement& data, c
 }
 
 double SeriesAbscissa::per_second(const sim::Problem& problem) const {
-    if (!is_turns()) return 1;
+    if (!is_turns() && !is_phase()) return 1;
     return problem.cam ? std::abs(problem.cam->speed) / (2 * std::numbers::pi) : 0;
 }
 
@@ -61,15 +60,12 @@ void SeriesAbscissa::fold(Series& curve) const {
     const Series whole = curve;
     const bool timed = whole.t.size() == whole.x.size();
     curve.x.clear(), curve.y.clear(), curve.t.clear();
-    const auto turns = [&](std::size_t i) { return whole.x[i] / (2 * std::numbers::pi); };
     for (std::size_t i = 0; i < whole.x.size(); ++i) {
-        const double now = turns(i), before = i > 0 ? turns(i - 1) : now;
+        const double now = whole.x[i], before = i > 0 ? whole.x[i - 1] : now;
         if (whole.line && std::floor(now) != std::floor(before)) {
-            const double edge =
-                std::max(std::floor(now), std::floor(before));  // between them: rows are closer than turns
+            const double edge = std::floor(now);  // between them: rows are closer than turns
             const double y = whole.y[i - 1] + (whole.y[i] - whole.y[i - 1]) * (edge - before) / (now - before);
-            const bool forward = now > before;
-            curve.add(forward, y), curve.add(std::nan(""), std::nan("")), curve.add(!forward, y);
+            curve.add(1, y), curve.add(std::nan(""), std::nan("")), curve.add(0, y);
             if (timed)
                 curve.t.resize(curve.x.size(),
                                whole.t[i - 1] + (whole.t[i] - whole.t[i - 1]) * (edge - before) / (now - before));
@@ -99,7 +95,7 @@ void SeriesAbscissa::share(Figure& figure, const sim::Problem& problem, const re
     Measure measure = measure_of(unit(channel, problem), largest, units);
     std::string symbol = render::print_symbol(channel);
     if (is_frequency()) measure = {1, "Hz"}, symbol = "$f$";
-    if (is_phase()) measure = {1, "(2π)"}, symbol = phrase(lang_, "phase of the cam");
+    if (is_phase()) measure = {1, ""}, symbol = phrase(lang_, "cam phase / turn");
     if (is_turns()) measure = {1, ""}, symbol = phrase(lang_, "turns of the cam");
     if (!unit_.name.empty()) measure = measure_in(unit_);
     if (!label_.empty()) symbol = label_;

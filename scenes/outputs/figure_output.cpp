@@ -64,9 +64,10 @@ static void visit_abscissa(SceneVisitor& v, SeriesKeys& series, const KeyOfFigur
         const auto channel = sim::channel_named(series.against);
         return channel ? dimension_of(*channel, r.context().scene.problem) : dim::kNone;  // of turns
     };
-    v.value(key("x"), abscissa_format(series.against),
-            "In \"series\": the abscissa: \"t\", \"turns\" of the cam, its \"phase\" (fraction of a turn), "
-            "\"frequency\" (amplitude spectra with a Hann window), or a channel.");
+    v.value(
+        key("x"), abscissa_format(series.against),
+        "In \"series\": the abscissa: \"t\", \"turns\" of the cam, its \"phase\" (fraction of a turn since the start), "
+        "\"frequency\" (amplitude spectra with a Hann window), or a channel.");
     v.value(key("x_low"), quantity_format(series.x_low, of_abscissa),
             "In \"series\": lower end of the abscissa; a plain number is in SI units, or in turns.");
     v.value(key("x_high"), quantity_format(series.x_high, of_abscissa),

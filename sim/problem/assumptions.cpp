@@ -95,7 +95,7 @@ std::vector<std::string> assumptions(const Problem& problem, bool has_stiffness,
     if (has_shapes && torque_on_hub && resolved_basis(problem) == Basis::hub_beam)
         out.push_back(
             "beam.basis: hub-beam shapes have only the moment of the hub's inertia at the root, so deflections under "
-            "the torque on the hub converge slowly with beam.modes; \"cantilever\" needs few shapes");
+            "the torque on the hub converge slowly with beam.modes, as `beamcam accuracy` shows");
     const auto* torque = std::get_if<TorqueTable>(&problem.hub.drive);
     const auto* angle = std::get_if<AngleTable>(&problem.hub.drive);
     if (const double last = torque ? torque->t.back() : angle ? angle->t.back() : end_time; last < end_time)

@@ -302,8 +302,8 @@ TEST(Overviews, MapsHaveAPointForEachImpact) {
     ASSERT_EQ(figure.panels.size(), 4u);
     const std::size_t impacts = figure.panels[1].series[0].x.size();
     EXPECT_GE(impacts, 5u);
-    EXPECT_NEAR(figure.panels[1].series[0].x[0], 1 - 0.277394 / (2 * M_PI), 1e-5);  // clockwise
-    EXPECT_EQ(figure.panels[2].series[0].x.size(), impacts - 1);                    // the last has no next
+    EXPECT_NEAR(figure.panels[1].series[0].x[0], 0.277394 / (2 * M_PI), 1e-5);
+    EXPECT_EQ(figure.panels[2].series[0].x.size(), impacts - 1);  // the last has no next
     EXPECT_EQ(figure.panels[3].series[0].x, figure.panels[1].series[0].x);
     EXPECT_LT(figure.panels[3].series[0].y[0], 0);     // the hub falls
     EXPECT_EQ(figure.panels[0].y.to, 1.05);            // restitutions below 1 have the axis up to 1
