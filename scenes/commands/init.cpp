@@ -18,16 +18,28 @@ namespace {
 
 struct InitArguments {
     Common common;
-    std::string name, from = "default";
+    std::string name, from;
 };
 
-const EmbeddedText& example_named(const std::string& name) {
+// Null if no example has the name.
+const EmbeddedText* example(const std::string& name) {
+    const auto is_named = [&](const EmbeddedText& scene) {
+        return scene.name == name || std::string(scene.name) + ".json" == name;
+    };
+    const std::span<const EmbeddedText> all = embedded_scenes();
+    const auto found = std::ranges::find_if(all, is_named);
+    return found == all.end() ? nullptr : &*found;
+}
+
+// The example that --from names, else that of the new file's name, else the default one.
+const EmbeddedText& example_for(const InitArguments& args) {
+    const EmbeddedText* found = example(args.from.empty() ? args.name : args.from);
+    if (!found && args.from.empty()) found = example("default");
+    if (found) return *found;
     std::vector<std::string> known;
-    for (const EmbeddedText& scene : embedded_scenes()) {
-        if (scene.name == name || fmt::format("{}.json", scene.name) == name) return scene;
-        known.emplace_back(scene.name);
-    }
-    throw UsageError(fmt::format("no example is named {}{}", in_quotes(name), suggestion_or_list(name, known)));
+    for (const EmbeddedText& scene : embedded_scenes()) known.emplace_back(scene.name);
+    throw UsageError(
+        fmt::format("no example is named {}{}", in_quotes(args.from), suggestion_or_list(args.from, known)));
 }
 
 // The name as a word of the shell.
@@ -38,9 +50,9 @@ std::string shell_word(std::string name) {
 }
 
 int act(const InitArguments& args) {
-    const EmbeddedText& example = example_named(args.from);
+    const EmbeddedText& example = example_for(args);
     const std::string own = std::filesystem::path(example.name).filename().string();
-    const std::string name = !args.name.empty() ? args.name : args.from == "default" ? "scene" : own;
+    const std::string name = !args.name.empty() ? args.name : args.from.empty() ? "scene" : own;
     std::string text(example.text);
     replace_all(text, "\"../beamcam-scene.schema.json\"", "\"beamcam-scene.schema.json\"");
     if (name == "-") {
@@ -83,10 +95,11 @@ void print_schema(const SchemaArguments& args) {
 void add_init(Program& program) {
     const auto [app, args] =
         add_command<InitArguments>(program, "init", "Write a scene with comments to start from", act);
-    add_examples(app, {"init fall", "init fast --from fast-cam"});
+    add_examples(app, {"init", "init fast-cam", "init fast --from fast-cam"});
     app.add_option("NAME", args.name,
                    "Name of the new file (default: scene, or the name of the example); - is standard output");
-    add_option(app, "--from", args.from, "EXAMPLE", "Copy this example; `beamcam examples` lists all");
+    add_option(app, "--from", args.from, "EXAMPLE",
+               "Copy this example instead of that of the name; `beamcam examples` lists all");
     app.add_flag("--force", args.common.force, "Replace an existing file");
     add_quiet(app, args.common);
 }

@@ -140,9 +140,9 @@ class Drawing : private Sketch {
             label(-0.71 * p_.hub.radius * Vec2{1, 1}, "$O$", {-0.9, -0.9});
         const Vec2 i = sim::unit(theta_), j = sim::perp(i);
         arrow({0, 0}, 1.16 * size_ * i, kGrey);
-        label(1.16 * size_ * i, "$x$′", {0.8, 0.0}, kGrey);
+        label(1.16 * size_ * i, "$x′$", {0.8, 0.0}, kGrey);
         arrow({0, 0}, 0.26 * size_ * j, kGrey);
-        label(0.26 * size_ * j, "$y$′", {-0.9, 0.1}, kGrey);
+        label(0.26 * size_ * j, "$y′$", {-0.9, 0.1}, kGrey);
     }
 
     bool is_flexible() const { return p_.beam.model != sim::ModelKind::rigid; }
@@ -171,7 +171,7 @@ class Drawing : private Sketch {
             const Vec2 foot = (p_.hub.radius + at * p_.beam.length) * i, sagging = on_beam(at);
             arrow(foot, sagging, kBlue, 0.9);
             const bool low = theta_ > 0 && theta_ < 0.4;  // above the beam, which has the axis X or the cam close below
-            label(low ? foot : sagging, "$v$($x$, $t$)", low ? Vec2{0, 1} : Vec2{2.4, -0.7}, kBlue);
+            label(low ? foot : sagging, "$v(x, t)$", low ? Vec2{0, 1} : Vec2{2.4, -0.7}, kBlue);
         }
         // Length, beside the beam.
         const Vec2 off = kDimension * size_ * j;
@@ -191,7 +191,7 @@ class Drawing : private Sketch {
             arrow({0, 0}, a * sim::unit(-0.8));
             label(a * sim::unit(-0.8), "$a$", {0.6, -0.5});
         } else {
-            label({0, 0}, a < 0 ? "$a$ < 0" : "$a$ = 0", {-3.5, -0.9}, kGrey);
+            label({0, 0}, a < 0 ? "$a < 0$" : "$a = 0$", {-3.5, -0.9}, kGrey);
         }
         add({.kind = Kind::disc, .centre = {0, 0}, .radius_points = 3, .color = render::rgb(0xFFFFFF)});
         add({.kind = Kind::circle, .centre = {0, 0}, .radius_points = 3, .color = kInk, .width = 0.9});
@@ -233,7 +233,7 @@ constexpr double kAspect = 0.98;
 // Explains the symbols that are drawn.
 std::string symbols_of(const sim::Problem& p) {
     std::string all =
-        "The system; $X$, $Y$: fixed axes; $x$′, $y$′: axes of the hub, whose radius is $a$ and whose angle is $θ$; "
+        "The system; $X$, $Y$: fixed axes; $x′$, $y′$: axes of the hub, whose radius is $a$ and whose angle is $θ$; "
         "$L$: length of the beam";
     if (p.beam.model != sim::ModelKind::rigid) all += "; $v$: its deflection, exaggerated";
     if (has_torque(p.hub.drive)) all += "; $τ$: torque";

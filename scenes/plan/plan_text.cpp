@@ -72,7 +72,7 @@ std::vector<Line> lines_of(const Plan& plan, const Scene& scene) {
     for (const FigureFile& f : plan.figures) add_output(f.output, f.figure);
     for (const DataFile& d : plan.data) lines.push_back({type_of(scene.outputs[d.output]), d.file, d.content});
     for (const std::size_t output : plan.waiting)
-        add_output(output, fmt::format("at events, which a run until {:g} s at most finds",
+        add_output(output, fmt::format("at events, found by a run until {:g} s at most",
                                        events_until(scene.outputs[output], scene)));
     for (const std::string& file : plan.kept) lines.push_back({"kept", file, {}});
     return lines;

@@ -50,6 +50,7 @@ TEST(Examples, EachIsListedWithALineAndCopied) {
         // The files of two scenes of one example have different names.
         EXPECT_EQ(shell(folder, "$BEAMCAM plan mine.json | grep -c ' " + name + "[.-]'").out, "0\n") << name;
     }
+    EXPECT_EQ(shell(folder, "$BEAMCAM init -q fast-cam && grep -q 'fast cam' fast-cam.json").code, 0);
     const Finished unknown = shell(folder, "$BEAMCAM init --from fast-can");
     EXPECT_EQ(unknown.code, 2);
     EXPECT_THAT(unknown.err, HasSubstr("fast-cam"));

@@ -191,7 +191,7 @@ TEST(PlanText, AnOutputAtAnEventWaitsForIt) {
         scene_of(R"({"time": {"end": 2}, "outputs": [{"type": "video", "file": "a.mp4", "to": "impact:3"}]})");
     Plan dry;
     dry.waiting = {0};
-    EXPECT_EQ(to_text(dry, scene), "video       a.mp4: at events, which a run until 2 s at most finds\n");
+    EXPECT_EQ(to_text(dry, scene), "video       a.mp4: at events, found by a run until 2 s at most\n");
 }
 
 TEST(PlanText, IsTheSameAsJson) {
