@@ -1,6 +1,8 @@
 // The budget of a peak against the peaks of its variants.
 #include "sim/studies/peak_budget.hpp"
 
+#include <numbers>
+
 #include "tests/sim/support.hpp"
 
 namespace beamcam::sim::testing {
@@ -42,6 +44,21 @@ TEST(PeakBudget, WarnsOfAForceThatHasNotConverged) {
     p.contact.stiffness = 1e10;
     const PeakBudget budget = peak_budget(p, channel("contact_force"), kBudgetEnd, kLongest);
     EXPECT_NE(budget.recommendation.find("not converged"), std::string::npos) << budget.recommendation;
+}
+
+// The first touch of a beam that starts just above a hard cam.
+TEST(PeakBudget, RecommendsNoMoreModesThanThereAre) {
+    constexpr double kAfterTheTouch = 1e-3;
+    const auto budget_of = [&](int modes) {
+        Problem p = fixed_cam(ModelKind::first_order, modes);
+        p.contact.stiffness = 1e12;
+        p.initial.angle = 22 * std::numbers::pi / 180;
+        p.initial.angular_velocity = -6;
+        return peak_budget(p, channel("contact_force"), kAfterTheTouch, kLongest);
+    };
+    const PeakBudget most = budget_of(kMaxModes);
+    EXPECT_NE(most.recommendation.find("does not converge with 40 modes"), std::string::npos) << most.recommendation;
+    EXPECT_TRUE(row(budget_of(kMaxModes - 10), "40 modes").peak);
 }
 
 TEST(PeakBudget, HasTheSignOfTheLargestMagnitude) {
