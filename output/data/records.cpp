@@ -68,10 +68,9 @@ Node array_of(const std::vector<Record>& records) {
     });
 }
 
-Node units(const sim::Problem& problem) {
-    Node map = object_node();
-    for (const sim::Channel channel : sim::all_channels(problem))
-        add(map, sim::name(channel), sim::unit(channel, problem));
+Node units(const sim::Problem& problem, const std::vector<ChannelExtremum>& extrema) {
+    Node map = object_node({{"t", "s"}});
+    for (const auto& [channel, e] : extrema) add(map, sim::name(channel), sim::unit(channel, problem));
     return map;
 }
 
@@ -199,7 +198,7 @@ std::string summary_json(const sim::Problem& problem, const sim::Result& result,
         return object_node({{"t", zero.t}, {"theta_dot", zero.theta_dot}});
     });
 
-    Node out = object_node({{"units", units(problem)},
+    Node out = object_node({{"units", units(problem, extrema)},
                             {"model", sim::name(problem.beam.model)},
                             {"modes", problem.beam.model == sim::ModelKind::rigid ? 0 : problem.beam.modes},
                             {"end_time", result.end_time},

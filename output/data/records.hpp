@@ -35,7 +35,7 @@ struct Agreement {
     std::size_t rows = 0;
     double rms = 0;
 };
-// "units" lists all channels of the problem.
+// "units" lists the time and the channels of the extrema.
 std::string summary_json(const sim::Problem& problem, const sim::Result& result,
                          const std::vector<ChannelExtremum>& extrema, const std::vector<Agreement>& data = {});
 

@@ -261,7 +261,8 @@ void add_content_options(CLI::App& app, FigureArguments& args) {
     args.span.add(app, "--x-high", "x_high", "V");
     args.span.add(app, "--x-label", "x_label", "TEXT");
     args.span.add(app, "--x-unit", "x_unit", "UNIT");
-    args.span.add(app, "--horizon", "horizon", "BOOL");
+    args.span.add_flag(app, "--horizon", "horizon", "true",
+                       "In \"series\": paler curves where θ is not reproducible; this takes a second run");
     args.span.add(app, "--from", "from", "T");
     args.span.add(app, "--to", "to", "T");
     args.general.add(app, "--window", "window", "T");

@@ -98,7 +98,8 @@ Output read_output(Node output, std::initializer_list<const KeyOptions*> options
     messages.insert(messages.end(), of_reader.begin(), of_reader.end());
     for (const Message& message : messages) {
         const KeyOptions::Option* option = message.place.source == 0 ? nullptr : given[message.place.source - 1];
-        std::string text = message.text;
+        constexpr std::string_view kWhole = "the output: ";  // the option or the scene's name replaces it
+        std::string text = message.text.substr(message.text.starts_with(kWhole) ? kWhole.size() : 0);
         if (option && text.starts_with(option->key)) {  // "--low = "abc" …" in place of "panels.0.low = "abc" …"
             std::size_t path = option->key.size();
             if (!option->values.empty() && text[path] == '.') path = text.find(' ', path);  // of one in a list

@@ -1,4 +1,6 @@
 // `beamcam simulate`: tables, impacts and the summary of a motion, without pictures.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 
@@ -29,8 +31,11 @@ TrajectoryOutput trajectory_output(const SimulateArguments& args, const Scene& s
 
 StateOutput state_output(const SimulateArguments& args, const Scene& scene) {
     const std::string file = args.state.value_or("-");
-    require_ending_or_stdout("--output", file, {".json"});
-    if (!args.state_at.any()) throw UsageError("--output is the file of --state-at; give the instant");
+    if (!args.state_at.any())
+        throw UsageError(
+            fmt::format("-o {0}: it is the file of --state-at; {1} {0}", file,
+                        ending_of(file) == ".json" ? "a summary is --summary" : "a table is --trajectory"));
+    require_ending_or_stdout("-o", file, {".json"});
     auto state = std::get<StateOutput>(
         read_output(object_node({{"type", StateOutput::kType}}), {&args.state_at}, scene, args.scene, args.common));
     state.file = file;

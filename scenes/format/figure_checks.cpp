@@ -44,7 +44,8 @@ void check_interval(ObjectReader& r, const FigureOutput& figure) {
     if (series.needs_events()) return;
     const double end = series.to.value_or(r.context().scene.end_time);
     if (!(series.from < end))
-        r.reject("from", " = {} s is not before the end, {} s; reduce it, or increase \"to\"", series.from, end);
+        r.reject("from", " = {} s is not before the end, {} s; choose an earlier start, or a later end", series.from,
+                 end);
 }
 
 // Keys that only other figures have.
@@ -169,6 +170,9 @@ std::string problem_with_value(std::string_view diagram, const std::string& valu
     if (value == "exponent" && scene.sweep && !scene.sweep->sampling.exponents)
         return "the sweep computes no exponents; add \"exponents\": true to it (sweep --exponents)";
     if (value.empty() || std::ranges::find(known, value) != known.end()) return "";
+    for (const sim::SampleColumnInfo& column : sim::sample_columns())
+        if (column.name == value && column.is_of(sim::SampleKind::peaks))
+            return fmt::format("{} is a column of peaks; add \"sample\": \"peaks\" (sweep --sample peaks)", value);
     return fmt::format("the samples of the sweep have no column {}{}", in_quotes(value),
                        suggestion_or_list(value, known));
 }

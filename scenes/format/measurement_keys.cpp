@@ -118,7 +118,19 @@ class MeasurementReader {
                     ": the file states {} for the column {}, which is not a unit of {}; it is read in {} unless "
                     "\"units\" names another",
                     in_quotes(table_.column(from)->unit), in_quotes(from), key, si.empty() ? "plain numbers" : si);
+        else if (key == "theta" && unit.empty() && table_.column(from)->unit.empty())
+            warn_of_degrees(from, read.values);
         return read.values;
+    }
+
+    void warn_of_degrees(const std::string& from, const std::vector<double>& angles) {
+        const auto found = std::ranges::find_if(
+            angles, [](double angle) { return std::isfinite(angle) && perhaps_in(sim::dimension::kAngle, angle); });
+        if (found != angles.end())
+            r_.warn(r_.has("theta") ? "theta" : "file",
+                    ": the column {0} is read in rad and contains {1:g}; write \"units\": {{{0}: \"deg\"}} if that is "
+                    "meant",
+                    in_quotes(from), *found);
     }
 
     // An angle that begins again after a turn, as that of an absolute encoder, goes on instead.
@@ -184,9 +196,13 @@ class MeasurementReader {
                             fmt::format("{}: the time does not increase; sort the rows, and keep each instant once",
                                         table_.row_name(rows_[i])));
         const double end = r_.context().scene.end_time;
-        if (m_.times.back() < 0 || m_.times.front() > end)
+        const auto outside = std::ranges::count_if(m_.times, [end](double t) { return t < 0 || t > end; });
+        if (outside == std::ssize(m_.times))
             fail("file",
                  fmt::format("no row lies between 0 and {:g} s; check \"offset\" and the unit of the time", end));
+        else if (outside > 0)
+            r_.warn("file", ": {} of {} rows lie outside the motion, which is from 0 to {:g} s", outside,
+                    m_.times.size(), end);
     }
 
     ObjectReader& r_;

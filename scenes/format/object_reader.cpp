@@ -67,8 +67,7 @@ void ObjectReader::fail(const Node& node, std::string_view key, std::string text
     diagnostics_.error(node.place, path(key), std::move(text));
 }
 
-// Plain numbers outside of these, in SI units, are perhaps in the unit that catalogues use. Numbers with many digits
-// were computed.
+// The usual magnitudes in SI units.
 struct PlausibleRange {
     sim::Dimension dimension;
     double least, most;
@@ -80,7 +79,15 @@ constexpr PlausibleRange kPlausible[] = {{sim::dimension::kAngle, -6.5, 6.5, "de
                                          {sim::dimension::kSecondMoment, 0, 2, "mm^4"},
                                          {sim::dimension::kDensity, 50, Range::kInfinity, "g/cm^3"},
                                          {sim::dimension::kPressure, 1e4, Range::kInfinity, "GPa"}};
-constexpr std::size_t kFewDigits = 6;
+constexpr std::size_t kFewDigits = 6;  // numbers with more were computed
+
+const char* perhaps_in(const sim::Dimension& dimension, double value) {
+    const auto is_implausible = [&](const PlausibleRange& each) {
+        return same(dimension, each.dimension) && !(value >= each.least && value < each.most);
+    };
+    const auto range = std::ranges::find_if(kPlausible, is_implausible);
+    return range == std::end(kPlausible) ? nullptr : range->usual_unit;
+}
 
 // ---- visited keys ------------------------------------------------------------------------------
 
@@ -96,11 +103,10 @@ void ObjectReader::read_number(const Key& key, std::optional<double>& value, con
         expect(*node, key.name, "{}a number", word ? fmt::format("\"{}\" or ", word) : "");
     else if (const auto read = ranged_value(*node, key.name, unit, range)) {
         value = read;
-        for (const PlausibleRange& each : kPlausible)
-            if (node->kind == Node::Kind::number && node->text.size() <= kFewDigits &&
-                same(unit.dimension, each.dimension) && !(*read >= each.least && *read < each.most))
+        if (node->kind == Node::Kind::number && node->text.size() <= kFewDigits)
+            if (const char* usual = perhaps_in(unit.dimension, *read))
                 warn(key.name, " = {0} is in {1}; write \"{0} {2}\" if that is meant", node->text,
-                     si_unit(each.dimension), each.usual_unit);
+                     si_unit(unit.dimension), usual);
     }
 }
 

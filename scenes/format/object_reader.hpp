@@ -63,6 +63,9 @@ struct SceneContext {
     std::optional<std::string> only_output = {};  // an output is read alone; its path in messages
 };
 
+// The unit that catalogues use, if a number of this size in SI units is perhaps in that unit; else null.
+const char* perhaps_in(const sim::Dimension& dimension, double value);
+
 class ObjectReader final : public SceneVisitor {
   public:
     ObjectReader(Diagnostics& diagnostics, const Node* object, std::string path, std::string root = "the scene",

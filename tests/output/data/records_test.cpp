@@ -109,13 +109,12 @@ TEST(Summary, HasEveryNameInItsOrder) {
         return output_of(
             "/usr/bin/python3 -c 'import json, sys\n"
             "s = json.load(open(sys.argv[1]))\n"
-            "u = s.pop(\"units\")\n"
-            "print(u[\"theta\"], u[\"t\"], u[\"contact_force\"], \"q1\" in u, \"q3\" in u)\n"
+            "print(s.pop(\"units\"))\n"
             "print(s)' " +
             (scratch / "s.json").string());
     }();
     EXPECT_EQ(printed,
-              "rad s N True False\n"
+              "{'t': 's', 'theta': 'rad'}\n"
               "{'model': 'first-order', 'modes': 2, 'end_time': 1.5, 'steps': 44000, "
               "'steps_by_method': {'auto': 40000, 'rk8': 4000}, 'rhs_evaluations': 90000, "
               "'wall_seconds': 0.0, 'events': {'theta_zero': [{'t': 0.369993889, 'theta_dot': -5.5}]}, 'extrema': "

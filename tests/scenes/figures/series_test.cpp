@@ -339,10 +339,29 @@ TEST(Measured, DataAreDrawnAndJudged) {
     // The same with data that changed is not up to date.
     EXPECT_THAT(shell(folder, "$BEAMCAM run m.json -o . 2>&1").out, Not(HasSubstr("wrote")));
     folder.write("rig.csv", rig + "490,20,1\n");
-    EXPECT_THAT(shell(folder, "$BEAMCAM run m.json -o . 2>&1").out, HasSubstr("wrote"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM run m.json -o . 2>&1").out, AllOf(HasSubstr("wrote"), Not(HasSubstr("rows"))));
+    folder.write("rig.csv", "time,angle\n0,20\n100,20\n490,20\n510,20\n");
+    EXPECT_THAT(shell(folder, "$BEAMCAM check m.json 2>&1").out,
+                HasSubstr("data.0.file: 2 of 4 rows lie outside the motion, which is from 0 to 0.4 s"));
     const Finished drawn = shell(folder, "$BEAMCAM figure m.json angle -o a.svg --data d.csv");
     ASSERT_EQ(drawn.code, 0) << drawn.err;
     EXPECT_THAT(testing::slurp(folder / "d.csv"), HasSubstr("t / s,rig: θ / rad,θ / rad\n"));
+}
+
+TEST(Measured, AnglesWithoutAUnitArePerhapsInDegrees) {
+    const Folder folder;
+    folder.write("m.json", R"({"time": {"end": 0.4}, "data": [{"file": "rig.csv"}]})");
+    for (const auto& [rig, doubtful] : {std::pair{"t,theta\n0,30\n0.1,NA\n0.2,15\n", true},
+                                        {"t,theta [deg]\n0,30\n0.1,20\n0.2,15\n", false},
+                                        {"t,theta\n0,0.5\n0.1,NA\n0.2,0.3\n", false}}) {
+        folder.write("rig.csv", rig);
+        const std::string report = shell(folder, "$BEAMCAM check m.json 2>&1").out;
+        EXPECT_EQ(
+            report.find(R"(the column "theta" is read in rad and contains 30; write "units": {"theta": "deg"})") !=
+                std::string::npos,
+            doubtful)
+            << report;
+    }
 }
 
 // Data of t and θ, drawn over either and over the phase of the cam at t.
