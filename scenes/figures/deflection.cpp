@@ -101,16 +101,17 @@ Figure deflection_figure(const Subject& subject, const MotionResults&) {
                                 .solid = curves[k].printing == Printing::corrected,
                                 .color = render::rgb(0x000000)});
     shape.caption = "static deflection across the beam", slope.caption = "slope along it";
-    Figure figure{.title = fmt::format("The beam at rest, inclined by {}°{}, hinged at "
-                                       "$O$, supported at the marks, $l_{{1}}$ = {}{}",
-                                       number(at.angle * 180 / M_PI, 4),
-                                       at.tangent ? ", tangent to the centred disc" : "", fmt::join(supports, ", "),
-                                       several ? "; eq. (5): of Acta Physica Sinica 65, 240502 (2016), as printed "
-                                                 "and completed by its missing terms"
-                                               : ""),
-                  .panels = lettered({std::move(shape), std::move(slope)}),
-                  .share_x = true,
-                  .aspect = 1.15};
+    Figure figure{
+        .title = fmt::format("The beam at rest, inclined by {}°{}, hinged at "
+                             "$O$, supported at the marks, $l_{{1}}$ = {}{}",
+                             number(at.angle * 180 / M_PI, 4), at.tangent ? ", tangent to the centred disc" : "",
+                             fmt::join(supports, ", "),
+                             several ? "; eq. (5) is that of Acta Physica Sinica 65, 240502 (2016), as printed "
+                                       "and with its missing terms"
+                                     : ""),
+        .panels = lettered({std::move(shape), std::move(slope)}),
+        .share_x = true,
+        .aspect = 1.15};
     add_caption(figure, std::vector{problem}, units);
     return figure;
 }

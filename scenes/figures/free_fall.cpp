@@ -1,5 +1,6 @@
 // Falling without a cam: the hub angle of the flexible and the rigid beam.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -102,13 +103,19 @@ FigureDrawing prepare_fall(const Scene& scene, const FigureOutput&, MotionReques
         const double aspect = panels.size() > 1 ? 1.25 : 0.74;
         Figure figure{.title = kFallTitle, .panels = lettered(std::move(panels)), .share_x = true, .aspect = aspect};
         Runs runs;
+        std::vector<std::string> notes;
         for (const Fall& fall : falls.shown) {
             runs.emplace_back(&fall.problem, results[fall.motion]);
             if (const auto zero = fall.zero(results))
-                figure.title += fmt::format("; {}: zero after {} s", fall.label, grouped(*zero, 6));
+                notes.push_back(fmt::format("{}: zero after {} s", fall.label, grouped(*zero, 6)));
         }
         if (falls.paper)
-            figure.title += "; factor 2: twice the torque of gravity on the same inertia, which gives the paper's time";
+            notes.push_back("factor 2: twice the torque of gravity on the same inertia, which gives the paper's time");
+        const std::string told = fmt::format("{}", fmt::join(notes, "; "));
+        if (figure.panels.size() > 1)
+            figure.panels.front().caption = told;
+        else if (!told.empty())
+            figure.title += "; " + told;
         add_caption(figure, runs, subject.units);
         return figure;
     };

@@ -188,6 +188,12 @@ class SeriesPanelMaker {
         return curves_++;
     }
 
+    // Curves with short peaks, which gaps of dashes would hide, are solid.
+    static bool has_short_peaks(sim::ChannelKind kind) {
+        using enum sim::ChannelKind;
+        return kind == contact_force || kind == energy_elastic || kind == energy_contact;
+    }
+
     // A sum that is zero throughout is omitted, unless it is the only one.
     void add_sum(std::size_t i) {
         const SeriesSum& sum = *planned_.curves[i].sum;
@@ -200,14 +206,14 @@ class SeriesPanelMaker {
                      .x = plan_.abscissa.of(rows_[i], plan_.motions[planned_.curves[i].motion].problem),
                      .y = scaled(values, measure_.factor),
                      .look = total ? kBlack : look_of(sum.plus.front().kind),
-                     .solid = total,
+                     .solid = total || has_short_peaks(sum.plus.front().kind),
                      .weight = total ? 1 : kCurveWeight};
         curve.t = rows_[i].values[0];
         plan_.abscissa.fold(curve);
         panel_.series.push_back(std::move(curve));
     }
 
-    // Paler where θ is not reproducible. Forces are solid: gaps of dashes would hide their short peaks.
+    // Paler where θ is not reproducible.
     void add_curve(std::size_t i) {
         const SeriesMotion& motion = plan_.motions[planned_.curves[i].motion];
         const std::size_t shown = planned_.motions.size(), channel = i / shown;
@@ -226,7 +232,7 @@ class SeriesPanelMaker {
                      .name = shown == 1 ? symbols_[channel] : "",
                      .look = shown == 1 ? look_of(keys_.channels[channel].kind)
                                         : static_cast<int>(channel) * looks + looks_[planned_.curves[i].motion],
-                     .solid = keys_.channels[channel].kind == sim::ChannelKind::contact_force,
+                     .solid = has_short_peaks(keys_.channels[channel].kind),
                      .weight = kCurveWeight};
         if (shown > 1) curves_ = std::max(curves_, whole.look + 1);
         std::vector<Series> parts = by_reliability(whole, rows.values[0], plan_.unreliable(*results_[motion.request]));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "render/base/error.hpp"
 #include "render/plot/lang.hpp"
@@ -122,9 +123,13 @@ std::string energy_at_apex(double touch, double apex, const sim::Problem& proble
         if (each.size > 0.005 * all)
             from += (shown++ == 0 ? "" : ", ") + phrase(lang, each.name, quantity(each.size, "J"));
     if (shown > 1) from = fmt::format("{} ({})", quantity(all, "J"), from);
-    for (const Part& each : uses)
-        if (const double percent = std::round(100 * each.size / all); percent > 0)
-            to += (to.empty() ? "" : ", ") + phrase(lang, each.name, fmt::format("{:.0f}\u00A0%", percent));
+    std::vector<double> percents;
+    for (const Part& each : uses) percents.push_back(std::round(100 * std::max(each.size, 0.0) / all));
+    // The largest part takes what rounding leaves.
+    *std::ranges::max_element(percents) += 100 - std::accumulate(percents.begin(), percents.end(), 0.0);
+    for (std::size_t i = 0; i < percents.size(); ++i)
+        if (percents[i] > 0)
+            to += (to.empty() ? "" : ", ") + phrase(lang, uses[i].name, fmt::format("{:.0f}\u00A0%", percents[i]));
     return phrase(lang, "energy {}", from) + ": " + to;
 }
 
