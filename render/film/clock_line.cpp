@@ -12,7 +12,7 @@ constexpr double kAfterClock = 36, kBetweenPills = 14;  // [design px]
 constexpr double kPadding = 1.7;                        // of a pill, in sizes of its letters
 
 std::string peak_text(const FilmContext& context, double force) {
-    return context.look.translate("collision peak") + "\u00A0$F$\u2009=\u2009" +
+    return context.look.translate("largest $F$ so far") + "\u2009=\u2009" +
            reading(force, context.scales.force_unit, "N");
 }
 
@@ -35,7 +35,7 @@ ClockLine::ClockLine(const FilmContext& context) : context_(context) {
     for (int m = 0; m < context.members() && mechanism && !in_chart && setup.view.labelled(); ++m)
         if (!context.motion(m).impacts.empty() && context.scales.largest_force > 0 &&
             context.motion(m).problem.contact.model == sim::ContactModel::compliant) {
-            if (!peaks_) peaks_.emplace(context, Peaks::Of::collision);
+            if (!peaks_) peaks_.emplace(context, Range{0, context.clock.span.high});
             pills_.push_back({Pill::Kind::peak, peak_text(context, 0.888 * context.scales.force_unit.factor),
                               context.members() > 1 ? context.member_color(m) : context.look.palette.contact, m});
         }
@@ -96,7 +96,7 @@ std::string ClockLine::words(const Pill& pill, int frame) const {
         case Pill::Kind::peak:
             break;
     }
-    const double peak = peaks_->of(pill.member, context_.clock.at(frame)).y;
+    const double peak = peaks_->of(pill.member, {0, context_.clock.at(frame)}).y;
     return peak >= 0.0005 * context_.scales.force_unit.factor ? peak_text(context_, peak) : std::string();
 }
 

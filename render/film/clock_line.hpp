@@ -1,5 +1,5 @@
 // The clock, and beside it exaggeration, playback speed and, in a picture without a chart of the contact force, the
-// peak forces of collisions. Sizes and places are the same for all frames.
+// largest forces so far, from time 0 on. Sizes and places are the same for all frames.
 #pragma once
 
 #include <optional>

@@ -20,17 +20,17 @@ void CloseUpReadings::draw(Canvas& canvas, const sim::Pose& pose, double face) c
     const sim::Nearest& near = *pose.nearest;
     const Palette& p = context.look.palette;
     const double u = context.look.unit;
-    const bool deep = near.gap < 0;
     const double size = std::abs(near.gap);
     const bool zero = size < (unit.factor == 1e-6 ? 0.05 : 1e-3) * unit.factor;
-    const std::string amount = zero                               ? context.look.translate("touch")
+    const bool deep = near.gap < 0 && !zero;
+    const std::string amount = zero                               ? fmt::format("0\u00A0{}m", unit.symbol)
                                : unit.factor != 1e-6 || size >= 1 ? quantity(size, "m")
                                : size < 1e-3 ? fmt::format("{}\u00A0µm", fixed(size * 1e6, size < 1e-5 ? 1 : 0))
                                              : fmt::format("{}\u00A0mm", fixed(size * 1e3, size < 0.1 ? 1 : 0));
     // The place of the word does not depend on the number. Without room for both words there are symbols, or the colour
     // alone.
     const TextStyle style{.size = context.look.letters.heading,
-                          .color = deep && !zero ? p.contact : p.motion,
+                          .color = deep ? p.contact : p.motion,
                           .weight = Weight::medium,
                           .align = HAlign::right,
                           .tabular = true};
@@ -40,7 +40,7 @@ void CloseUpReadings::draw(Canvas& canvas, const sim::Pose& pose, double face) c
         return canvas.measure("$y$ / µm" + name, style).w + 16 * u + widest <= plot.w;
     };
     canvas.text(right, amount, style);
-    if (fits("$δ$") && !zero)
+    if (fits("$δ$"))
         canvas.text(right - Vec2{widest, 0},
                     fits(context.look.translate("penetration")) ? context.look.translate(deep ? "penetration" : "gap")
                     : deep                                      ? "$δ$"

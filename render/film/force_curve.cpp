@@ -65,25 +65,15 @@ figure::Series force_curve(const Motion& motion, Range span) {
     return curve;
 }
 
-Peaks::Peaks(const FilmContext& context, Of part) : context_(context), part_(part) {
-    for (int m = 0; m < context.members(); ++m) forces_.push_back(force_curve(context.motion(m), context.clock.span));
+Peaks::Peaks(const FilmContext& context, Range span) {
+    for (int m = 0; m < context.members(); ++m) forces_.push_back(force_curve(context.motion(m), span));
 }
 
-Vec2 Peaks::of(int member, double t) const {
-    const std::vector<sim::Impact>& impacts = context_.motion(member).impacts;
+Vec2 Peaks::of(int member, Range part) const {
     const figure::Series& force = forces_[static_cast<std::size_t>(member)];
-    const auto later = std::ranges::upper_bound(impacts, t, {}, &sim::Impact::t_start);
     Vec2 peak{kNan, kNan};
-    if (later == impacts.begin()) return peak;
-    auto first = std::prev(later);  // the first impact of the part
-    while (first != impacts.begin() && (part_ == Of::film || std::prev(first)->collision == first->collision)) --first;
-    const auto see = [&](double at, double value) {
-        if (value > 0 && !(value <= peak.y)) peak = {at, value};
-    };
-    const auto from = std::ranges::lower_bound(force.x, first->t_start) - force.x.begin(),
-               to = std::ranges::upper_bound(force.x, t) - force.x.begin();
-    for (auto i = static_cast<std::size_t>(from); i < static_cast<std::size_t>(to); ++i) see(force.x[i], force.y[i]);
-    see(t, value_at(force.x, force.y, t));
+    for (std::size_t i = 0; i < force.x.size() && force.x[i] <= part.high; ++i)
+        if (force.x[i] >= part.low && force.y[i] > 0 && !(force.y[i] <= peak.y)) peak = {force.x[i], force.y[i]};
     return peak;
 }
 

@@ -13,17 +13,13 @@ namespace beamcam::render {
 // of frames. An impact that does not end within the rows gets no peak.
 figure::Series force_curve(const Motion& motion, Range span);
 
-// The largest forces so far: of the motions' latest collisions, or of the whole film.
+// The largest forces of the motions within parts of `span`.
 class Peaks {
   public:
-    enum class Of { collision, film };
-    Peaks(const FilmContext& context, Of part);
-    // Instant and force [s, N], by linear interpolation at t; NaN: none.
-    Vec2 of(int member, double t) const;
+    Peaks(const FilmContext& context, Range span);
+    Vec2 of(int member, Range part) const;  // instant and force [s, N]; NaN: none
 
   private:
-    const FilmContext& context_;
-    Of part_;
     std::vector<figure::Series> forces_;  // of each motion
 };
 

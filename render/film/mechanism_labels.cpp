@@ -68,8 +68,8 @@ std::optional<double> arc_radius(const MechanismView& home) {
 }
 
 // The arc ends at the line at θ through the hub, behind the beam. The letter is on the bisector, or as far from the
-// beam as it needs. With the cam on the beam's other side, the arc has the radius at which the letter has room between
-// beam and horizontal.
+// beam as it needs; without room for it between beam and horizontal there are neither. With the cam on the beam's other
+// side, the arc has the radius at which the letter has room between beam and horizontal.
 std::optional<Vec2> draw_arc_of_angle(const MechanismScene& s) {
     if (!s.at.labelled() || !s.at.arc_radius) return std::nullopt;
     const double angle = drawn_angle(s.pose);
@@ -78,18 +78,20 @@ std::optional<Vec2> draw_arc_of_angle(const MechanismScene& s) {
     const double edge = (angle > 0 ? -s.beam.low : s.beam.high) * s.at.look.camera.scale;  // of the beam below its line
     if (way * s.beam.side < 0)
         radius = std::max(radius, std::min(longest_arc(s.at), (edge + 1.4 * size) / std::abs(angle) - 0.8 * size));
-    const double visible = std::abs(angle) - std::asin(std::clamp(edge / radius, 0.0, 1.0));
-    if (visible * radius < 3 * s.at.unit) return std::nullopt;
     const Vec2 o = s.at.px({0, 0});
-    const Pen pen{s.at.palette.muted, 1.6 * s.at.unit, {}, Cap::butt};
+    const double outside = radius + 0.8 * size;
+    double room = std::abs(angle);  // up to the drawn beam near the letter
+    for (const std::vector<Vec2>* side : {&s.shape.face, &s.shape.back})
+        for (const Vec2& p : *side)
+            if (std::abs(norm(p - o) - outside) < size)
+                room = std::min(room, way * (angle + std::remainder(std::atan2(o.y - p.y, p.x - o.x) - angle, 2 * pi)));
+    const double half = 0.5 * size / outside;  // of the letter
+    if (room < 2 * half) return std::nullopt;
     s.canvas.clip(s.at.box, [&] {
         s.arc(o, radius, 0, angle);
-        s.canvas.stroke(pen);
+        s.canvas.stroke({s.at.palette.muted, 1.6 * s.at.unit, {}, Cap::butt});
     });
-    const double outside = radius + 0.8 * size;
-    const double clear = std::asin(std::clamp((edge + 0.7 * size) / outside, 0.0, 1.0));
-    const double bisector = way * std::min(std::abs(angle) / 2, std::abs(angle) - clear);
-    return s.on(o + down(bisector) * outside);
+    return s.on(o + down(way * std::min(std::abs(angle) / 2, room - half)) * outside);
 }
 
 void draw_letter_of_angle(const MechanismScene& s, Vec2 middle) {

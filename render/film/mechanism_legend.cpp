@@ -93,7 +93,7 @@ void MechanismLegend::scale_bar(Canvas& canvas, const MechanismView& at, const P
 }
 
 void MechanismLegend::name_contacts(Canvas& canvas) const {
-    if (at_.member > 0 || !at_.labelled() || !(at_.context.scales.largest_force > 0)) return;
+    if (at_.member > 0 || !at_.labelled()) return;
     const double u = at_.unit;
     const Vec2 left{at_.box.x + 2 * u, at_.box.bottom() - 8 * u};
     for (const double k : {0, 1})

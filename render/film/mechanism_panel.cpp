@@ -40,6 +40,13 @@ Trace MechanismPanel::trace_until(double t) const {
                                places(length));
 }
 
+bool MechanismPanel::has_marks(int frame) const {
+    const double now = at_.context.clock.at(frame);
+    return std::ranges::any_of(at_.context.samples, [now](const std::vector<TraceSample>& contacts) {
+        return !contacts.empty() && contacts.front().t <= now;
+    });
+}
+
 // For the solid view this is an estimate: it is evaluated as if seen from the front.
 int MechanismPanel::empty_frames() const {
     int count = 0;
@@ -100,7 +107,7 @@ static void fade_edges(Canvas& canvas, const MechanismView& at) {
 
 void MechanismPanel::draw(Canvas& canvas, int frame, Style style, BodyPicture& bodies) const {
     if (!cameras_.moves()) {
-        if (is_touched(frame)) legend_.name_contacts(canvas);
+        if (has_marks(frame)) legend_.name_contacts(canvas);
         return draw_moving(canvas, at_, frame, style, bodies);
     }
     const double presence = cameras_.presence(frame);
@@ -114,7 +121,7 @@ void MechanismPanel::draw(Canvas& canvas, int frame, Style style, BodyPicture& b
         });
     });
     legend_.draw(canvas, at);
-    if (is_touched(frame)) legend_.name_contacts(canvas);
+    if (has_marks(frame)) legend_.name_contacts(canvas);
 }
 
 void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int frame, Style style,

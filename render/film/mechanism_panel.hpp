@@ -26,7 +26,7 @@ class MechanismPanel final : public FilmPanel {
     DrawnBeam beam(int frame) const { return at_.beam_of(at_.member, frame); }
 
   private:
-    bool is_touched(int frame) const { return first_touch(at_.context) <= at_.context.clock.at(frame); }
+    bool has_marks(int frame) const;  // of contact, on beams and cams
     void draw_still(Canvas& canvas, const MechanismView& at) const;
     Trace trace_until(double t) const;
     void draw_moving(Canvas& canvas, const MechanismView& at, int frame, Style style, BodyPicture& bodies) const;

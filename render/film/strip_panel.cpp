@@ -20,7 +20,7 @@ class StripPanel final : public ChartPanel {
   public:
     StripPanel(const FilmContext& context, const PanelSlot& slot)
         : ChartPanel(context, strip_content(context, slot.spec), slot.box), spec_(slot.spec) {
-        if (shows_peaks(spec_) && context.setup->view.labelled()) peaks_.emplace(context, Peaks::Of::film);
+        if (shows_peaks(spec_) && context.setup->view.labelled()) peaks_.emplace(context, context.clock.span);
     }
 
   private:
@@ -34,7 +34,8 @@ class StripPanel final : public ChartPanel {
     }
     std::vector<Vec2> peaks(int frame) const override {
         std::vector<Vec2> out;
-        for (int m = 0; peaks_ && m < context_.members(); ++m) out.push_back(peaks_->of(m, context_.clock.at(frame)));
+        for (int m = 0; peaks_ && m < context_.members(); ++m)
+            out.push_back(peaks_->of(m, {context_.clock.span.low, context_.clock.at(frame)}));
         return out;
     }
     PanelSpec spec_;
@@ -50,7 +51,7 @@ class CollisionPanel final : public FilmPanel {
     CollisionPanel(const FilmContext& context, const PanelSlot& slot)
         : context_(context), spec_(slot.spec), whole_(context, over_film(slot)) {
         for (int m = 0; m < context.members(); ++m) collisions_.push_back(collisions_of(m));
-        if (shows_peaks(spec_) && context.setup->view.labelled()) peaks_.emplace(context, Peaks::Of::collision);
+        if (shows_peaks(spec_) && context.setup->view.labelled()) peaks_.emplace(context, context.clock.span);
         content_ = strip_content(context, spec_);
         content_.panel.events.clear();
         content_.past_only =
@@ -79,9 +80,7 @@ class CollisionPanel final : public FilmPanel {
         for (int m = 0; m < context_.members(); ++m) {
             const double touch = touch_of(latest, m);
             times.push_back(now - touch);
-            if (!peaks_) continue;
-            const Vec2 peak = peaks_->of(m, now) - Vec2{touch, 0};
-            peaks.push_back(peak.x < 0 ? Vec2{kNan, kNan} : peak);  // of an earlier collision
+            if (peaks_) peaks.push_back(peaks_->of(m, {touch, now}) - Vec2{touch, 0});
         }
         for (const Channel channel : spec_.channels)
             for (int m = 0; m < context_.members(); ++m) readings.push_back(reading(context_, m, frame, channel));

@@ -89,7 +89,7 @@ constexpr Phrase kPhrases[] = {
     {"contact", "接触能"},
     {"Energy", "能量"},
     {"lost", "耗散"},
-    {"collision peak", "本次碰撞峰值"},
+    {"largest $F$ so far", "迄今最大 $F$"},
     {"no contact", "无接触"},
     {"contact so far", "已接触处"},
     {"impulses only", "仅有冲量"},
@@ -97,7 +97,6 @@ constexpr Phrase kPhrases[] = {
     {"hub of the bent beam", "弯曲梁的轮毂"},
     {"cam", "凸轮"},
     {"gap", "间隙"},
-    {"touch", "相触"},
     // the page
     {"The mechanism", "机构"},
     {"Instant", "时刻"},

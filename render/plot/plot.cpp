@@ -56,22 +56,31 @@ void draw_ticks(Painter& painter, std::span<const Tick> ticks, const Box& plot, 
 }
 
 // The middle of the name of an axis at the right end of the row of its numbers below the plot, where numbers give way;
-// left of them if none would remain. Nor do numbers remain that would touch the one before.
+// between the last two numbers if fewer than two would remain and it has room there; left of all if none would remain.
+// Nor do numbers remain that would touch the one before.
 double place_name(const Painter& painter, std::vector<Tick>& ticks, const Box& plot, const std::string& name,
                   const TextStyle& style, double unit, bool moves) {
     const double wide = painter.measure(name, style).w, gap = 14 * unit, end = plot.right() + 8 * unit;
-    double kept = -1e9, first = 1e9;  // the ends of numbers
+    double kept = -1e9, first = 1e9;   // the ends of numbers
+    Range between{0, 0};               // the last two numbers
+    std::vector<std::string*> beside;  // the numbers that the name at the right end replaces
+    int before = 0;
     for (Tick& tick : ticks) {
         if (tick.label.empty()) continue;
         const double at = plot.x + plot.w * tick.at, half = painter.measure(tick.label, style).w / 2;
         first = std::min(first, at - half);
-        if ((moves && at - half <= plot.x - 20 * unit) || at - half < kept + 4 * unit ||
-            (kept > 0 && at + half >= end - wide - gap))
+        if ((moves && at - half <= plot.x - 20 * unit) || at - half < kept + 4 * unit) {
             tick.label.clear();
-        else
-            kept = at + half;
+            continue;
+        }
+        between = {kept, at - half}, kept = at + half;
+        kept < end - wide - gap ? void(++before) : beside.push_back(&tick.label);
     }
-    return kept < end - wide - gap ? end - wide / 2 : first - gap - wide / 2;
+    if (before < 2 && !moves && between.low > 0 && between.high - between.low >= wide + gap)
+        return (between.low + between.high) / 2;
+    if (before == 0) return first - gap - wide / 2;
+    for (std::string* number : beside) number->clear();
+    return end - wide / 2;
 }
 
 }  // namespace

@@ -49,25 +49,27 @@ TEST(MechanismLabels, ThetaIsOutsideItsArcOnTheBisector) {
     }
 }
 
-// At small angles the letter gives way to the beam, beyond the horizontal.
-TEST(MechanismLabels, ThetaIsNeverUnderTheBeam) {
+// At small angles there is no letter.
+TEST(MechanismLabels, ThetaIsNeitherOnTheBeamNorOnTheHorizontal) {
     FilmSetup setup = bare(test::led_rod(0.6, -0.6, 0.9));
     setup.problem.cam.reset();
     Film film(setup);
-    int small = 0;
-    for (int k = 0; k < film.frames(); k += 5) {
+    int shown = 0, frames = 0;
+    for (int k = 0; k < film.frames(); k += 5, ++frames) {
         const FrameGeometry g = film.geometry(k);
         const double reach = 0.3 * g.camera.scale;
         const Vec2 hinge = g.camera.to_pixels({0, 0});
         for (const Box& letter : g.texts) {
             const Vec2 way = letter.centre() - hinge;
-            if (norm(way) > reach) continue;
-            const double angle = std::atan2(-way.y, way.x), apart = setup.poses[std::size_t(k)].theta - angle;
-            EXPECT_GT(apart * norm(way), (g.beam.high - g.beam.low) / 2 * g.camera.scale) << k;
-            small += angle < 0;
+            if (norm(way) > reach || way.x < 0) continue;
+            const double angle = std::atan2(-way.y, way.x), theta = setup.poses[std::size_t(k)].theta;
+            EXPECT_GT(std::abs(theta - angle) * norm(way), (g.beam.high - g.beam.low) / 2 * g.camera.scale) << k;
+            EXPECT_GT(std::abs(way.y), letter.h / 3) << k;
+            EXPECT_TRUE(angle / theta > 0 && angle / theta < 1) << k;
+            ++shown;
         }
     }
-    EXPECT_GT(small, 0);
+    EXPECT_TRUE(shown > 0 && shown < frames) << shown;
 }
 
 TEST(MechanismLabels, OmegaIsBesideItsArrowAndNoneIsOnACamAtRest) {
@@ -181,28 +183,20 @@ void without_rows(FilmSetup& setup) {
         for (auto& column : table->values) column.clear();
 }
 
-TEST(Peaks, AreThoseOfTheLatestCollision) {
+TEST(Peaks, AreTheLargestForcesOfAPart) {
     FilmSetup setup = test::flat_film({.duration = 2}, 640, 360);
     setup.impacts = {brief_impact(0.3, 100), brief_impact(0.34, 20), brief_impact(1.6, 50, 1)};
     without_rows(setup);
     setup.trace.values.assign(setup.trace.values.size(), {0, 0});
     setup.trace.values[0] = {0, 2};
     const FilmContext context(std::make_shared<const FilmSetup>(setup));
-    const Peaks peaks(context, Peaks::Of::collision);
-    EXPECT_TRUE(std::isnan(peaks.of(0, 0.28).y));
-    EXPECT_EQ(peaks.of(0, 0.32).y, 100);
-    EXPECT_NEAR(peaks.of(0, 0.32).x, 0.3005, 1e-9);
-    EXPECT_EQ(peaks.of(0, 0.5).y, 100);  // of the whole collision
-    EXPECT_EQ(peaks.of(0, 1.7).y, 50);
-    EXPECT_EQ(Peaks(context, Peaks::Of::film).of(0, 1.7).y, 100);
-}
-
-// A collision before the film has none.
-TEST(Peaks, BelongToTheFilm) {
-    FilmSetup setup = test::flat_film({.duration = 2}, 640, 360);
-    setup.impacts = {brief_impact(-0.3, 100)};
-    const FilmContext context(std::make_shared<const FilmSetup>(setup));
-    EXPECT_TRUE(std::isnan(Peaks(context, Peaks::Of::collision).of(0, 0).y));
+    const Peaks peaks(context, {0, 2});
+    EXPECT_TRUE(std::isnan(peaks.of(0, {0, 0.28}).y));
+    EXPECT_EQ(peaks.of(0, {0, 0.32}).y, 100);
+    EXPECT_NEAR(peaks.of(0, {0, 0.32}).x, 0.3005, 1e-9);
+    EXPECT_EQ(peaks.of(0, {0, 1.7}).y, 100);
+    EXPECT_EQ(peaks.of(0, {1.6, 1.7}).y, 50);
+    EXPECT_EQ(Peaks(context, {1, 2}).of(0, {0, 1.7}).y, 50);
 }
 
 // While a contact lasts, its peak is the largest force so far.
@@ -218,10 +212,10 @@ TEST(Peaks, OfAContactThatLastsGrow) {
         setup.trace.values[3].back() = 100 * std::sin(std::numbers::pi * (t - 0.3) / 0.3);
     }
     const FilmContext context(std::make_shared<const FilmSetup>(setup));
-    const Peaks peaks(context, Peaks::Of::collision);
-    EXPECT_NEAR(peaks.of(0, 0.4).y, 50 * std::sqrt(3), 1);
-    EXPECT_NEAR(peaks.of(0, 0.55).y, 100, 1);
-    EXPECT_EQ(peaks.of(0, 2.0 / 3).y, 100);
+    const Peaks peaks(context, {0, 1});
+    EXPECT_NEAR(peaks.of(0, {0, 0.4}).y, 50 * std::sqrt(3), 3);
+    EXPECT_NEAR(peaks.of(0, {0, 0.55}).y, 100, 1);
+    EXPECT_EQ(peaks.of(0, {0, 2.0 / 3}).y, 100);
 }
 
 }  // namespace
