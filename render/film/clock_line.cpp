@@ -18,7 +18,7 @@ std::string peak_text(const FilmContext& context, double force) {
 
 }  // namespace
 
-// Without room in the smaller size, the last pills are left out.
+// Without room in the smaller size, the forces of all motions are left out, then the last pills.
 ClockLine::ClockLine(const FilmContext& context) : context_(context) {
     const FilmSetup& setup = *context.setup;
     const bool mechanism = context.places.first(PanelKind::mechanism) != nullptr;
@@ -47,8 +47,9 @@ ClockLine::ClockLine(const FilmContext& context) : context_(context) {
         return measure(canvas) <= context.places.clock->right();
     };
     if (fits(1) || fits(kSmaller)) return;
+    std::erase_if(pills_, [](const Pill& pill) { return pill.kind == Pill::Kind::peak; });
     while (!pills_.empty() && measure(canvas) > context.places.clock->right()) {
-        if (pills_.back().kind != Pill::Kind::peak) has_room_ = false;
+        has_room_ = false;
         pills_.pop_back();
     }
 }

@@ -152,7 +152,7 @@ constexpr Phrase kPhrases[] = {
     {"eq. (5), completed", "式（5）补全"},
     {"eq. (5), printed", "式（5）原文"},
     {"unknown", "未知"},
-    {"$λ_1$ without a mark: −∞", "$λ_1$ 无标记处为 −∞"},
+    {"$λ_1$ without a mark: −∞ or unknown", "$λ_1$ 无标记处为 −∞ 或未知"},
     {"unstable", "不稳定"},
     // channels
     {"Time", "时间"},

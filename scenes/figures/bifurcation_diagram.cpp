@@ -154,7 +154,7 @@ figure::Figure bifurcation(const SweptPoints& points, const FigureOutput& how) {
     figure::Panel strip = class_strip(points);
     out.panels = {samples_panel(points, column, std::move(dots.samples), strip.swatches)};
     if (known) out.panels.push_back(exponents_panel(std::move(dots.exponents)));
-    if (known && dots.merging) out.panels.back().title = phrase(points.lang, "$λ_1$ without a mark: −∞");
+    if (known && dots.merging) out.panels.back().title = phrase(points.lang, "$λ_1$ without a mark: −∞ or unknown");
     out.panels.push_back(std::move(strip));
     const std::vector<double> edges = out.panels.back().cells[0].x;
     for (figure::Panel& each : out.panels)
