@@ -64,7 +64,7 @@ double place_name(const Painter& painter, std::vector<Tick>& ticks, const Box& p
     double kept = -1e9, first = 1e9;   // the ends of numbers
     Range between{0, 0};               // the last two numbers
     std::vector<std::string*> beside;  // the numbers that the name at the right end replaces
-    int before = 0;
+    int before = 0;                    // numbers left of the name there
     for (Tick& tick : ticks) {
         if (tick.label.empty()) continue;
         const double at = plot.x + plot.w * tick.at, half = painter.measure(tick.label, style).w / 2;
@@ -73,8 +73,12 @@ double place_name(const Painter& painter, std::vector<Tick>& ticks, const Box& p
             tick.label.clear();
             continue;
         }
-        between = {kept, at - half}, kept = at + half;
-        kept < end - wide - gap ? void(++before) : beside.push_back(&tick.label);
+        between = {kept, at - half};
+        kept = at + half;
+        if (kept < end - wide - gap)
+            ++before;
+        else
+            beside.push_back(&tick.label);
     }
     if (before < 2 && !moves && between.low > 0 && between.high - between.low >= wide + gap)
         return (between.low + between.high) / 2;
