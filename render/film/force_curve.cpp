@@ -72,8 +72,10 @@ Peaks::Peaks(const FilmContext& context, Range span) {
 Vec2 Peaks::of(int member, Range part) const {
     const figure::Series& force = forces_[static_cast<std::size_t>(member)];
     Vec2 peak{kNan, kNan};
-    for (std::size_t i = 0; i < force.x.size() && force.x[i] <= part.high; ++i)
-        if (force.x[i] >= part.low && force.y[i] > 0 && !(force.y[i] <= peak.y)) peak = {force.x[i], force.y[i]};
+    const auto from = std::ranges::lower_bound(force.x, part.low) - force.x.begin(),
+               to = std::ranges::upper_bound(force.x, part.high) - force.x.begin();
+    for (auto i = static_cast<std::size_t>(from); i < static_cast<std::size_t>(to); ++i)
+        if (force.y[i] > 0 && !(force.y[i] <= peak.y)) peak = {force.x[i], force.y[i]};
     return peak;
 }
 

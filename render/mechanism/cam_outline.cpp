@@ -2,29 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "sim/base/numerics.hpp"
 #include "sim/cam/cam_shape.hpp"
 #include "sim/cam/motion_law.hpp"
 
 namespace beamcam::render {
 
-// The normal at the arc s by Newton's method, ds/dα = ρ, from the one before; by bisection where ρ changes too fast.
+// The normal at each arc, ds/dα = ρ, from the one before on.
 CamOutline cam_outline(const sim::Problem& problem, int count) {
-    constexpr int kSteps = 40;
-    constexpr double kAccuracy = 1e-7;  // of the whole outline
     const auto shape = sim::cam_shape(problem);
     const double whole = shape->arc(sim::kFullTurn);
     CamOutline out;
     double alpha = 0;
     for (int i = 0; i < count; ++i) {
         const double s = whole * i / count;
-        double low = alpha, high = sim::kFullTurn;
-        for (int k = 0; k < kSteps; ++k) {
-            const double error = s - shape->arc(alpha), next = alpha + error / shape->at(alpha).radius;
-            if (std::abs(error) <= kAccuracy * whole) break;
-            (error > 0 ? low : high) = alpha;
-            alpha = next > low && next < high ? next : (low + high) / 2;
-        }
+        const auto ahead = [&](double at) { return std::pair(shape->arc(at) - s, shape->at(at).radius); };
+        alpha = sim::increasing_root(ahead, alpha, sim::kFullTurn);
         out.points.push_back(shape->at(alpha).position(alpha));
         out.normals.push_back(sim::unit(alpha));
     }

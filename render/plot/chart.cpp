@@ -186,8 +186,9 @@ void Chart::draw_cursor(Canvas& canvas, double x, const Box& along, std::span<co
 // below the heading or the row above, with nothing higher of the curve under it, in a row of its own.
 void Chart::draw_peaks(Canvas& canvas, const std::vector<figure::Plot>& rows, std::span<const double> cursors,
                        std::span<const Vec2> peaks) const {
+    if (c_.rows != rows.size()) return;  // rows of several motions are one
     const double size = style_.numbers;
-    for (std::size_t i = 0; i < peaks.size() && c_.rows == rows.size(); ++i) {
+    for (std::size_t i = 0; i < peaks.size(); ++i) {
         if (!(plots_[0].y().tick_value(peaks[i].y) >= 0.5 * ten_to(-digits_))) continue;
         const figure::Plot& row = row_of(rows, i);
         const Vec2 at = row.at(peaks[i].x, peaks[i].y);

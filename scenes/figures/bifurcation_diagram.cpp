@@ -88,7 +88,7 @@ Dots dots_of(const SweptPoints& points, std::size_t column) {
         const std::size_t cloud = out.samples.size() > 1 ? k % points.seeds() : 0;
         const double at = points.value(k);
         if (std::isfinite(p.exponent)) out.exponents[cloud].add(at, p.exponent);
-        out.merging = out.merging || p.exponent < -std::numeric_limits<double>::max();
+        out.merging = out.merging || std::isinf(p.exponent);
         if (!has_section(kind_of(p))) continue;
         for (std::size_t i = column; i < p.samples.size(); i += width)
             out.samples[cloud].add(at, drawn(points, column, p.samples[i]));

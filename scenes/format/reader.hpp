@@ -27,8 +27,7 @@ Reading read_scene(Source file, const std::vector<std::string>& overrides = {});
 Reading read_scene(Source file, Node root, const std::vector<std::string>& overrides);
 
 inline constexpr const char* kNoScene = "`beamcam init` writes a first scene";
-// "-" is standard input. `remedy`: end of the message if the file does not exist. Throws
-// output::IoError.
+// "-" is standard input. `remedy`: end of the message if the file does not exist. Throws output::IoError.
 Source load_source(const std::string& path, const char* remedy = kNoScene);
 
 // Reads one output, which becomes the only output of the scene. `scene_name`: paths in the output are relative to its

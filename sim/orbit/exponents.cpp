@@ -201,13 +201,14 @@ void judge_impacts(const std::vector<TangentTouch>& touches, Exponents& e) {
 
 }  // namespace
 
+bool Exponents::diverges() const { return lambda.front() > kSureErrors * error.front(); }
+
 const char* Exponents::against_chaos() const {
     if (lambda.empty()) return "the hub's motion is prescribed and the beam rigid";
     if (impacts == 0) return "there were no impacts";
     if (!settled) return "the motion had not settled; a longer transient may help";
     if (!(lambda.front() > 0)) return "the largest exponent is not positive";
-    if (!(lambda.front() > kSureErrors * error.front()))
-        return "the largest exponent does not exceed three times its error; a longer duration may help";
+    if (!diverges()) return "the largest exponent does not exceed three times its error; a longer duration may help";
     if (!(lambda.front() * duration / 2 > kLateGrowth)) return "differences grow by less than e³ in the second half";
     return nullptr;
 }

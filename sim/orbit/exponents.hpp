@@ -43,6 +43,8 @@ struct Exponents {
     bool settled = true;
     std::vector<std::string> warnings;
 
+    // Neighbouring motions surely diverge: the largest exponent exceeds three times its error.
+    bool diverges() const;
     // The first reason why no chaos is shown; null if there is none. Without impacts a positive exponent is that of an
     // unstable equilibrium or of a growing vibration.
     const char* against_chaos() const;

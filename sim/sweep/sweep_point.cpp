@@ -23,8 +23,7 @@ void add_exponent(const Problem& problem, const Sampling& sampling, SweepPoint& 
         if (found.lambda.empty()) return;  // a rigid beam on a prescribed hub has no tangents
         confirm_chaos(problem, request, found, progress);
         Attractor& attractor = point.attractor;
-        const bool diverges = found.lambda.front() > 3 * found.error.front();
-        if (attractor.period > 0 && diverges) return;  // the continued motion has left the orbit
+        if (attractor.period > 0 && found.diverges()) return;  // the continued motion has left the orbit
         attractor.exponent = found.lambda.front();
         attractor.exponent_error = found.error.front();
         if (attractor.period == 0 && found.chaotic()) attractor.kind = AttractorClass::chaotic;
