@@ -7,16 +7,26 @@
 
 namespace beamcam {
 
+static constexpr std::size_t kFewMembers = 16;  // up to this size a linear search is fastest
+
 const Member* Members::find(std::string_view key) const {
-    const auto position = index_.find(key);
-    return position == index_.end() ? nullptr : &all_[position->second];
+    if (all_.size() > kFewMembers) {
+        const auto position = index_.find(key);
+        return position == index_.end() ? nullptr : &all_[position->second];
+    }
+    for (const Member& member : all_)
+        if (member.key == key) return &member;
+    return nullptr;
 }
 
 Member* Members::find(std::string_view key) { return const_cast<Member*>(std::as_const(*this).find(key)); }
 
 Member& Members::add(Member member) {
-    index_.try_emplace(member.key, all_.size());
-    return all_.emplace_back(std::move(member));
+    all_.push_back(std::move(member));
+    if (all_.size() > kFewMembers)
+        for (std::size_t i = all_.size() == kFewMembers + 1 ? 0 : all_.size() - 1; i < all_.size(); ++i)
+            index_.try_emplace(all_[i].key, i);
+    return all_.back();
 }
 
 namespace {
